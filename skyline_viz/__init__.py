@@ -1,0 +1,77 @@
+"""skyline-viz: look inside a mountain-skyline detector.
+
+    import skyline_viz as sv
+    photo = sv.read_photo("photo.jpg")
+    detection = sv.Detector().detect(photo)
+    detection.skyline.rows
+
+Names are loaded when first used, so that ``import skyline_viz`` costs nothing.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+__version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from skyline_viz.datasets import Dataset, DatasetItem, open_dataset
+    from skyline_viz.detector import Detection, Detector, DetectorConfig
+    from skyline_viz.filter_bank import FilterBank, FilterBankError
+    from skyline_viz.metrics import a_err, column_errors, is_gross_miss, segmentation_accuracy
+    from skyline_viz.photo import PhotoError, read_photo, write_photo
+    from skyline_viz.skyline import Skyline, SkylineError
+    from skyline_viz.training import train
+
+_HOME = {
+    "Dataset": "datasets",
+    "DatasetItem": "datasets",
+    "Detection": "detector",
+    "Detector": "detector",
+    "DetectorConfig": "detector",
+    "FilterBank": "filter_bank",
+    "FilterBankError": "filter_bank",
+    "PhotoError": "photo",
+    "Skyline": "skyline",
+    "SkylineError": "skyline",
+    "a_err": "metrics",
+    "column_errors": "metrics",
+    "is_gross_miss": "metrics",
+    "open_dataset": "datasets",
+    "read_photo": "photo",
+    "segmentation_accuracy": "metrics",
+    "train": "training",
+    "write_photo": "photo",
+}
+
+__all__ = [
+    "Dataset",
+    "DatasetItem",
+    "Detection",
+    "Detector",
+    "DetectorConfig",
+    "FilterBank",
+    "FilterBankError",
+    "PhotoError",
+    "Skyline",
+    "SkylineError",
+    "a_err",
+    "column_errors",
+    "is_gross_miss",
+    "open_dataset",
+    "read_photo",
+    "segmentation_accuracy",
+    "train",
+    "write_photo",
+]
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *_HOME])

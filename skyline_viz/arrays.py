@@ -1,0 +1,35 @@
+"""The array types that the stages pass to each other."""
+
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+U8: TypeAlias = npt.NDArray[np.uint8]
+Bool: TypeAlias = npt.NDArray[np.bool_]
+Int: TypeAlias = npt.NDArray[np.int32]
+F32: TypeAlias = npt.NDArray[np.float32]
+F64: TypeAlias = npt.NDArray[np.float64]
+
+
+def check_photo(photo: U8) -> None:
+    """Refuse anything but an ``(H, W, 3)`` uint8 array of at least 2 by 2 pixels.
+
+    Raises:
+        TypeError: Not a uint8 array.
+        ValueError: The wrong shape, or too small to hold a skyline.
+    """
+    if not isinstance(photo, np.ndarray) or photo.dtype != np.uint8:
+        found = getattr(photo, "dtype", type(photo).__name__)
+        raise TypeError(f"a photo is a uint8 array (H, W, 3) in RGB, not {found}")
+    if photo.ndim != 3 or photo.shape[2] != 3:
+        raise ValueError(f"a photo has the shape (H, W, 3), not {photo.shape}")
+    if min(photo.shape[:2]) < 2:
+        raise ValueError(
+            f"a photo is at least 2 by 2 pixels, not {photo.shape[1]}x{photo.shape[0]}"
+        )
+
+
+def read_only(array: npt.NDArray[np.generic]) -> None:
+    """Make `array` refuse writes, so that a frozen dataclass is frozen all the way down."""
+    array.setflags(write=False)

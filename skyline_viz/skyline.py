@@ -1,0 +1,228 @@
+"""The skyline: one row a column, and the forms in which data sets store it."""
+
+import csv
+import json
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.arrays import U8, Bool, F32, read_only
+from skyline_viz.files import replacing, write_text
+
+Paint = Literal["red", "blue"]
+"""Colour of a painted skyline: pure ``(255, 0, 0)`` or pure ``(0, 0, 255)``."""
+
+_PAINTS: dict[Paint, tuple[int, int, int]] = {"red": (255, 0, 0), "blue": (0, 0, 255)}
+_CSV_HEADER = ["column", "row", "visible"]
+
+
+class SkylineError(ValueError):
+    """A skyline, or a file that should hold one, is not valid; the message says why."""
+
+
+@dataclass(frozen=True, eq=False)
+class Skyline:
+    """For each column the row of the first terrain pixel; the rows above it are sky.
+
+    >>> skyline = Skyline(rows=[2, 3, 3])
+    >>> skyline.to_mask(height=5).astype(int)[:, 0]
+    array([1, 1, 0, 0, 0])
+    >>> Skyline.from_mask(skyline.to_mask(height=5)) == skyline
+    True
+    """
+
+    rows: F32
+    """``(W,)`` row of the first terrain pixel of each column, in pixels from the top; finite."""
+
+    visible: Bool = field(default=None)  # type: ignore[assignment]
+    """``(W,)`` False where the line cannot be seen or is not labelled; all True unless given."""
+
+    def __post_init__(self) -> None:
+        """Convert, check and freeze the arrays."""
+        try:
+            rows = np.array(self.rows, dtype=np.float32)
+            visible = np.ones(rows.shape, bool) if self.visible is None else np.array(self.visible)
+        except (TypeError, ValueError) as error:
+            raise SkylineError(
+                f"the rows of a skyline are numbers, one a column: {error}"
+            ) from None
+        if rows.ndim != 1 or len(rows) == 0:
+            raise SkylineError(f"the rows of a skyline have the shape (W,), not {rows.shape}")
+        if not np.isfinite(rows).all():
+            column = int(np.flatnonzero(~np.isfinite(rows))[0])
+            raise SkylineError(f"the row of column {column} is {rows[column]}, not a finite number")
+        if visible.dtype != np.bool_:
+            raise SkylineError(f"visible is a bool array, not {visible.dtype}")
+        if visible.shape != rows.shape:
+            raise SkylineError(f"{len(rows)} rows, but visible has the shape {visible.shape}")
+        read_only(rows)
+        read_only(visible)
+        object.__setattr__(self, "rows", rows)
+        object.__setattr__(self, "visible", visible)
+
+    def __eq__(self, other: object) -> bool:
+        """Equal rows and equal visibility in every column."""
+        if not isinstance(other, Skyline):
+            return NotImplemented
+        return np.array_equal(self.rows, other.rows) and np.array_equal(self.visible, other.visible)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def width(self) -> int:
+        """Number of columns."""
+        return len(self.rows)
+
+    def pixel_rows(self, height: int) -> npt.NDArray[np.intp]:
+        """Rows rounded to whole pixels, ``(W,)``, each in ``[0, height]``; `height` means all sky.
+
+        Raises:
+            SkylineError: A row lies outside the image.
+        """
+        rows = np.floor(self.rows.astype(np.float64) + 0.5).astype(np.intp)
+        outside = np.flatnonzero((rows < 0) | (rows > height))
+        if len(outside):
+            column = int(outside[0])
+            raise SkylineError(
+                f"row {self.rows[column]:g} of column {column} lies outside a height of {height}"
+            )
+        return rows
+
+    def to_mask(self, height: int) -> Bool:
+        """Sky mask ``(height, W)``, True = sky."""
+        return np.arange(height)[:, None] < self.pixel_rows(height)[None, :]
+
+    @classmethod
+    def from_mask(cls, sky_mask: npt.NDArray[np.bool_]) -> "Skyline":
+        """Skyline of a sky mask ``(H, W)``, True = sky: the first terrain row of each column.
+
+        Sky below terrain (a hole, an overhang) does not count; a column that is all sky gets the
+        row ``H``.
+        """
+        mask = np.asarray(sky_mask)
+        if mask.ndim != 2 or mask.dtype != np.bool_ or mask.size == 0:
+            raise SkylineError(f"a sky mask is a bool array (H, W), not {mask.dtype} {mask.shape}")
+        rows = np.where(mask.all(axis=0), mask.shape[0], np.argmin(mask, axis=0))
+        return cls(rows=rows.astype(np.float32))
+
+    def to_painted(self, photo: U8, paint: Paint = "red") -> U8:
+        """Copy of `photo` with the first terrain pixel of each visible column painted.
+
+        Pixels of the photo that happen to have the paint's exact colour are changed by one level,
+        so that `from_painted` gives back this very line.
+
+        Raises:
+            SkylineError: The width differs, or a visible row lies outside the photo.
+        """
+        height, width = photo.shape[:2]
+        if width != self.width:
+            raise SkylineError(f"the photo is {width} columns wide, the skyline {self.width}")
+        rows = self.pixel_rows(height)
+        columns = np.flatnonzero(self.visible)
+        below = columns[rows[columns] == height]
+        if len(below):
+            raise SkylineError(f"column {below[0]} is all sky, so there is no pixel to paint")
+        colour = np.array(_PAINTS[paint], np.uint8)
+        painted = photo.copy()
+        painted[(photo == colour).all(axis=2)] = np.maximum(colour, 1) - 1
+        painted[rows[columns], columns] = colour
+        return painted
+
+    @classmethod
+    def from_painted(cls, painted: U8, paint: Paint | None = None) -> "Skyline":
+        """Skyline painted on a photo, pure red or pure blue, as the authors' data sets have it.
+
+        The topmost painted pixel of a column counts. A column without one is not visible and gets
+        a row interpolated from its neighbours.
+
+        Args:
+            painted: ``(H, W, 3)`` uint8 RGB.
+            paint: The colour; without it, the one that is found in more columns.
+
+        Raises:
+            SkylineError: No pixel has the colour.
+        """
+        found = {name: (painted == np.uint8(_PAINTS[name])).all(axis=2) for name in _PAINTS}
+        if paint is None:
+            paint = max(found, key=lambda name: int(found[name].any(axis=0).sum()))
+        hits = found[paint]
+        visible = hits.any(axis=0)
+        if not visible.any():
+            raise SkylineError("no pixel is painted in pure red or pure blue")
+        return cls(rows=fill(hits.argmax(axis=0), visible), visible=visible)
+
+    def write_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write ``column,row,visible``, a line a column; `visible` is 1 or 0."""
+        with (
+            replacing(path) as temporary,
+            temporary.open("w", newline="", encoding="utf-8") as file,
+        ):
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(_CSV_HEADER)
+            for column, (row, visible) in enumerate(zip(self.rows, self.visible, strict=True)):
+                writer.writerow([column, np.format_float_positional(row, trim="-"), int(visible)])
+
+    @classmethod
+    def read_csv(cls, path: str | os.PathLike[str]) -> "Skyline":
+        """Read what `write_csv` wrote.
+
+        Raises:
+            SkylineError: Another header, a missing column, or a value that is no number.
+        """
+        with Path(path).open(newline="", encoding="utf-8") as file:
+            lines = list(csv.reader(file))
+        if not lines or lines[0] != _CSV_HEADER:
+            raise SkylineError(f"{path} does not begin with the line column,row,visible")
+        try:
+            table = [(int(column), float(row), int(visible)) for column, row, visible in lines[1:]]
+        except ValueError as error:
+            raise SkylineError(
+                f"{path} holds a line that is no column,row,visible: {error}"
+            ) from None
+        for expected, (column, _, visible) in enumerate(table):
+            if column != expected or visible not in (0, 1):
+                raise SkylineError(f"{path} goes wrong at line {expected + 2}")
+        return cls(
+            rows=np.array([row for _, row, _ in table], np.float32),
+            visible=np.array([visible == 1 for _, _, visible in table], bool),
+        )
+
+    def write_json(self, path: str | os.PathLike[str]) -> None:
+        """Write ``{"format": "skyline", "version": 1, "rows": [...], "visible": [...]}``."""
+        document = {
+            "format": "skyline",
+            "version": 1,
+            "rows": [float(row) for row in self.rows],
+            "visible": [bool(visible) for visible in self.visible],
+        }
+        write_text(path, json.dumps(document) + "\n")
+
+    @classmethod
+    def read_json(cls, path: str | os.PathLike[str]) -> "Skyline":
+        """Read what `write_json` wrote.
+
+        Raises:
+            SkylineError: Not JSON, another format or version, or not a valid skyline.
+        """
+        try:
+            document = json.loads(Path(path).read_text(encoding="utf-8"))
+        except ValueError as error:
+            raise SkylineError(f"{path} is not JSON: {error}") from None
+        if not isinstance(document, dict) or document.get("format") != "skyline":
+            raise SkylineError(f"{path} does not hold a skyline")
+        if document.get("version") != 1:
+            raise SkylineError(f"{path} has version {document.get('version')!r}; version 1 is read")
+        return cls(
+            rows=document.get("rows"),
+            visible=np.array(document.get("visible"), dtype=object).astype(bool),
+        )
+
+
+def fill(rows: npt.NDArray[np.generic], visible: Bool) -> F32:
+    """Rows with those of invisible columns interpolated from the visible ones, ``(W,)``."""
+    columns = np.arange(len(rows))
+    return np.interp(columns, columns[visible], rows[visible]).astype(np.float32)
