@@ -14,8 +14,11 @@ from typing import TYPE_CHECKING
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from skyline_viz.datasets import Dataset, DatasetItem, open_dataset
-    from skyline_viz.detector import Detection, Detector, DetectorConfig
+    from skyline_viz.bins import Bins
+    from skyline_viz.config import DetectorConfig, TrainingConfig
+    from skyline_viz.constraints import PathError
+    from skyline_viz.datasets import Dataset, DatasetError, DatasetItem, open_dataset
+    from skyline_viz.detector import Detection, Detector
     from skyline_viz.filter_bank import FilterBank, FilterBankError
     from skyline_viz.metrics import a_err, column_errors, is_gross_miss, segmentation_accuracy
     from skyline_viz.photo import PhotoError, read_photo, write_photo
@@ -23,16 +26,20 @@ if TYPE_CHECKING:
     from skyline_viz.training import train
 
 _HOME = {
+    "Bins": "bins",
     "Dataset": "datasets",
+    "DatasetError": "datasets",
     "DatasetItem": "datasets",
     "Detection": "detector",
     "Detector": "detector",
-    "DetectorConfig": "detector",
+    "DetectorConfig": "config",
     "FilterBank": "filter_bank",
     "FilterBankError": "filter_bank",
+    "PathError": "constraints",
     "PhotoError": "photo",
     "Skyline": "skyline",
     "SkylineError": "skyline",
+    "TrainingConfig": "config",
     "a_err": "metrics",
     "column_errors": "metrics",
     "is_gross_miss": "metrics",
@@ -44,16 +51,20 @@ _HOME = {
 }
 
 __all__ = [
+    "Bins",
     "Dataset",
+    "DatasetError",
     "DatasetItem",
     "Detection",
     "Detector",
     "DetectorConfig",
     "FilterBank",
     "FilterBankError",
+    "PathError",
     "PhotoError",
     "Skyline",
     "SkylineError",
+    "TrainingConfig",
     "a_err",
     "column_errors",
     "is_gross_miss",

@@ -1,7 +1,7 @@
 """Writing files so that they appear whole or not at all."""
 
 import os
-import tempfile
+import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,8 +11,9 @@ from pathlib import Path
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield a temporary path beside `path`; on success move it there in one step.
 
-    The temporary file keeps the suffix of `path`, so that encoders that go by it work. When the
-    block raises, the temporary file is removed and whatever stood at `path` is untouched.
+    The temporary file is hidden and keeps the suffix of `path`, so that encoders that go by it
+    work. When the block raises, the temporary file is removed and whatever stood at `path` is
+    untouched. Missing folders above `path` are made.
 
     >>> import tempfile
     >>> folder = Path(tempfile.mkdtemp())
@@ -23,14 +24,10 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=".", suffix=target.suffix, dir=target.parent)
-    os.close(handle)
-    temporary = Path(name)
+    temporary = target.with_name(f".{secrets.token_hex(8)}{target.suffix}")
+    temporary.touch(exist_ok=False)  # not tempfile, whose files only their owner may read
     try:
         yield temporary
-        umask = os.umask(0)
-        os.umask(umask)
-        temporary.chmod(0o666 & ~umask)  # mkstemp makes private files; these are ordinary ones
         temporary.replace(target)
     except BaseException:
         temporary.unlink(missing_ok=True)
@@ -38,6 +35,6 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
-    """Write `text` as UTF-8, whole or not at all."""
+    """Write `text` as UTF-8 with Unix line ends, whole or not at all."""
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")

@@ -10,7 +10,7 @@ GROSS_MISS_SHARE = 0.05
 
 
 def column_errors(skyline: Skyline, truth: Skyline) -> F64:
-    """Return ``|row - truth row|`` of each column, ``(W,)``, in pixels; NaN where not visible in both.
+    """Distance ``|row - truth row|`` in pixels, ``(W,)``; NaN where not visible in both.
 
     Raises:
         SkylineError: The widths differ.

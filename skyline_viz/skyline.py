@@ -3,14 +3,16 @@
 import csv
 import json
 import os
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import U8, Bool, F32, read_only
+from skyline_viz.arrays import F32, U8, Bool, check_photo, read_only
 from skyline_viz.files import replacing, write_text
 
 Paint = Literal["red", "blue"]
@@ -38,15 +40,16 @@ class Skyline:
     rows: F32
     """``(W,)`` row of the first terrain pixel of each column, in pixels from the top; finite."""
 
-    visible: Bool = field(default=None)  # type: ignore[assignment]
+    visible: Bool = None  # type: ignore[assignment]
     """``(W,)`` False where the line cannot be seen or is not labelled; all True unless given."""
 
     def __post_init__(self) -> None:
         """Convert, check and freeze the arrays."""
         try:
-            rows = np.array(self.rows, dtype=np.float32)
+            with np.errstate(over="ignore"):  # what is too large becomes infinite: see below
+                rows = np.array(self.rows, dtype=np.float32)
             visible = np.ones(rows.shape, bool) if self.visible is None else np.array(self.visible)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise SkylineError(
                 f"the rows of a skyline are numbers, one a column: {error}"
             ) from None
@@ -80,20 +83,26 @@ class Skyline:
     def pixel_rows(self, height: int) -> npt.NDArray[np.intp]:
         """Rows rounded to whole pixels, ``(W,)``, each in ``[0, height]``; `height` means all sky.
 
+        Those of invisible columns are guesses, and are moved to the nearest row inside.
+
         Raises:
-            SkylineError: A row lies outside the image.
+            SkylineError: The row of a visible column lies outside the image.
         """
-        rows = np.floor(self.rows.astype(np.float64) + 0.5).astype(np.intp)
-        outside = np.flatnonzero((rows < 0) | (rows > height))
+        rows = np.floor(self.rows.astype(np.float64) + 0.5)
+        outside = np.flatnonzero(self.visible & ((rows < 0) | (rows > height)))
         if len(outside):
             column = int(outside[0])
             raise SkylineError(
                 f"row {self.rows[column]:g} of column {column} lies outside a height of {height}"
             )
-        return rows
+        return rows.clip(0, height).astype(np.intp)
 
     def to_mask(self, height: int) -> Bool:
-        """Sky mask ``(height, W)``, True = sky."""
+        """Sky mask ``(height, W)``, True = sky; it does not say which columns are visible.
+
+        Raises:
+            SkylineError: The row of a visible column lies outside the image.
+        """
         return np.arange(height)[:, None] < self.pixel_rows(height)[None, :]
 
     @classmethod
@@ -112,12 +121,17 @@ class Skyline:
     def to_painted(self, photo: U8, paint: Paint = "red") -> U8:
         """Copy of `photo` with the first terrain pixel of each visible column painted.
 
-        Pixels of the photo that happen to have the paint's exact colour are changed by one level,
+        Pixels of the photo that happen to have a paint's exact colour are changed by one level,
         so that `from_painted` gives back this very line.
+
+        Args:
+            photo: ``(H, W, 3)`` uint8 RGB.
+            paint: The colour of the line.
 
         Raises:
             SkylineError: The width differs, or a visible row lies outside the photo.
         """
+        check_photo(photo)
         height, width = photo.shape[:2]
         if width != self.width:
             raise SkylineError(f"the photo is {width} columns wide, the skyline {self.width}")
@@ -126,10 +140,10 @@ class Skyline:
         below = columns[rows[columns] == height]
         if len(below):
             raise SkylineError(f"column {below[0]} is all sky, so there is no pixel to paint")
-        colour = np.array(_PAINTS[paint], np.uint8)
         painted = photo.copy()
-        painted[(photo == colour).all(axis=2)] = np.maximum(colour, 1) - 1
-        painted[rows[columns], columns] = colour
+        for colour in np.array(list(_PAINTS.values()), np.uint8):
+            painted[(photo == colour).all(axis=2)] = np.maximum(colour, 1) - 1
+        painted[rows[columns], columns] = _PAINTS[paint]
         return painted
 
     @classmethod
@@ -146,10 +160,10 @@ class Skyline:
         Raises:
             SkylineError: No pixel has the colour.
         """
-        found = {name: (painted == np.uint8(_PAINTS[name])).all(axis=2) for name in _PAINTS}
-        if paint is None:
-            paint = max(found, key=lambda name: int(found[name].any(axis=0).sum()))
-        hits = found[paint]
+        check_photo(painted)
+        colours = _PAINTS.values() if paint is None else [_PAINTS[paint]]
+        found = [(painted == np.array(colour, np.uint8)).all(axis=2) for colour in colours]
+        hits = max(found, key=lambda pixels: int(pixels.any(axis=0).sum()))
         visible = hits.any(axis=0)
         if not visible.any():
             raise SkylineError("no pixel is painted in pure red or pure blue")
@@ -173,23 +187,17 @@ class Skyline:
         Raises:
             SkylineError: Another header, a missing column, or a value that is no number.
         """
-        with Path(path).open(newline="", encoding="utf-8") as file:
-            lines = list(csv.reader(file))
-        if not lines or lines[0] != _CSV_HEADER:
-            raise SkylineError(f"{path} does not begin with the line column,row,visible")
-        try:
-            table = [(int(column), float(row), int(visible)) for column, row, visible in lines[1:]]
-        except ValueError as error:
-            raise SkylineError(
-                f"{path} holds a line that is no column,row,visible: {error}"
-            ) from None
-        for expected, (column, _, visible) in enumerate(table):
-            if column != expected or visible not in (0, 1):
-                raise SkylineError(f"{path} goes wrong at line {expected + 2}")
-        return cls(
-            rows=np.array([row for _, row, _ in table], np.float32),
-            visible=np.array([visible == 1 for _, _, visible in table], bool),
-        )
+        with _naming(path), Path(path).open(newline="", encoding="utf-8-sig") as file:
+            lines = [line for line in csv.reader(file) if line]
+            if not lines or lines[0] != _CSV_HEADER:
+                raise SkylineError("the first line is not column,row,visible")
+            for number, line in enumerate(lines[1:]):
+                if len(line) != 3 or line[0] != str(number) or line[2] not in ("0", "1"):
+                    raise SkylineError(f"the line of column {number} is {','.join(line)!r}")
+            return cls(
+                rows=[float(row) for _, row, _ in lines[1:]],  # type: ignore[arg-type]
+                visible=np.array([visible == "1" for _, _, visible in lines[1:]], bool),
+            )
 
     def write_json(self, path: str | os.PathLike[str]) -> None:
         """Write ``{"format": "skyline", "version": 1, "rows": [...], "visible": [...]}``."""
@@ -208,21 +216,42 @@ class Skyline:
         Raises:
             SkylineError: Not JSON, another format or version, or not a valid skyline.
         """
-        try:
-            document = json.loads(Path(path).read_text(encoding="utf-8"))
-        except ValueError as error:
-            raise SkylineError(f"{path} is not JSON: {error}") from None
-        if not isinstance(document, dict) or document.get("format") != "skyline":
-            raise SkylineError(f"{path} does not hold a skyline")
-        if document.get("version") != 1:
-            raise SkylineError(f"{path} has version {document.get('version')!r}; version 1 is read")
-        return cls(
-            rows=document.get("rows"),
-            visible=np.array(document.get("visible"), dtype=object).astype(bool),
-        )
+        with _naming(path):
+            document = json.loads(Path(path).read_text(encoding="utf-8-sig"))
+            if not isinstance(document, dict) or document.get("format") != "skyline":
+                raise SkylineError('there is no "format": "skyline" in it')
+            if document.get("version") != 1:
+                raise SkylineError(f"it has version {document.get('version')!r}, and 1 is known")
+            rows, visible = document.get("rows"), document.get("visible")
+            if not isinstance(rows, list) or not all(type(row) in (int, float) for row in rows):
+                raise SkylineError('"rows" is not a list of numbers')
+            if not isinstance(visible, list) or not all(type(one) is bool for one in visible):
+                raise SkylineError('"visible" is not a list of true and false')
+            return cls(rows=rows, visible=np.array(visible, bool))  # type: ignore[arg-type]
 
 
-def fill(rows: npt.NDArray[np.generic], visible: Bool) -> F32:
-    """Rows with those of invisible columns interpolated from the visible ones, ``(W,)``."""
+@contextmanager
+def _naming(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Put the name of the file before whatever is wrong with its content."""
+    try:
+        yield
+    except (ValueError, RecursionError, csv.Error) as error:  # a SkylineError is a ValueError
+        raise SkylineError(f"{path} does not hold a skyline: {error}.") from error
+
+
+def fill(rows: npt.NDArray[np.floating] | npt.NDArray[np.integer], visible: Bool) -> F32:
+    """Rows ``(W,)`` with those of invisible columns interpolated from the visible ones.
+
+    Left of the first and right of the last visible column its row is repeated.
+
+    >>> fill(np.array([0, 4, 0, 6]), np.array([False, True, False, True]))
+    array([4., 4., 5., 6.], dtype=float32)
+
+    Raises:
+        SkylineError: No column is visible.
+    """
+    if not visible.any():
+        raise SkylineError("no column is visible, so there is nothing to interpolate from")
     columns = np.arange(len(rows))
-    return np.interp(columns, columns[visible], rows[visible]).astype(np.float32)
+    filled: F32 = np.interp(columns, columns[visible], rows[visible]).astype(np.float32)
+    return filled

@@ -1,0 +1,86 @@
+"""Stage 3, bins: which of the learned filters a pixel uses, told by its structure tensor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.arrays import Int
+
+if TYPE_CHECKING:
+    from skyline_viz.tensor import Tensor  # compiled code: not needed to describe bins
+
+
+@dataclass(frozen=True)
+class Bins:
+    """How strength, coherence and orientation are quantised; as published: 3 x 6 x 16 bins.
+
+    The index of a bin is ``(coherence * strengths + strength) * orientations + orientation``.
+
+    >>> Bins().count
+    288
+    """
+
+    coherences: int = 3
+    """Number of coherence bins."""
+
+    strengths: int = 6
+    """Number of strength bins."""
+
+    orientations: int = 16
+    """Number of orientation bins in 180 degrees; the first one is centred on 0 degrees."""
+
+    coherence_top: float = 0.8
+    """Coherence from which on a pixel is in the last bin, in (0, 1]."""
+
+    strength_offset: float = 40.0
+    """Strength up to which a pixel is in the first bin, in grey levels a pixel."""
+
+    strength_range: float = 180.0
+    """Strength above the offset from which on a pixel is in the last bin, in grey levels a pixel."""
+
+    def __post_init__(self) -> None:
+        """Refuse values that make no bins."""
+        for name in ("coherences", "strengths", "orientations"):
+            if not 1 <= getattr(self, name) <= 1000:
+                raise ValueError(
+                    f"{name} is a number of bins from 1 to 1000, not {getattr(self, name)}"
+                )
+        if not 0 < self.coherence_top <= 1:
+            raise ValueError(f"coherence_top lies in (0, 1], not at {self.coherence_top}")
+        if not (np.isfinite(self.strength_offset) and 0 < self.strength_range < np.inf):
+            raise ValueError("strength_offset is finite and strength_range finite and positive")
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Numbers of coherence, strength and orientation bins."""
+        return self.coherences, self.strengths, self.orientations
+
+    @property
+    def count(self) -> int:
+        """Number of bins."""
+        return self.coherences * self.strengths * self.orientations
+
+    def of(self, tensor: Tensor) -> Int:
+        """Bin index of each pixel, int32, of the shape of the tensor's arrays."""
+        coherence = _level(tensor.coherence / self.coherence_top, self.coherences)
+        above = (tensor.strength - self.strength_offset) / self.strength_range
+        strength = _level(above, self.strengths)
+        turn = tensor.orientation * (self.orientations / 180.0) + 0.5
+        orientation = turn.astype(np.int32) % self.orientations
+        return (coherence * self.strengths + strength) * self.orientations + orientation
+
+    def mirrored(self) -> npt.NDArray[np.intp]:
+        """Bin ``(count,)`` that each bin's pixels fall into when the photo is flipped left-right."""
+        index = np.arange(self.count).reshape(self.shape)
+        return index[:, :, -np.arange(self.orientations) % self.orientations].ravel()
+
+
+def _level(value: npt.NDArray[np.float32], levels: int) -> Int:
+    """Quantise [0, 1] into `levels` levels, of which the last one begins at 1."""
+    if levels == 1:
+        return np.zeros(value.shape, np.int32)
+    return (np.clip(value, 0.0, 1.0) * (levels - 1)).astype(np.int32)

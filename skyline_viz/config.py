@@ -1,0 +1,132 @@
+"""What can be chosen, with units and the reasons for the defaults. Light to import."""
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from skyline_viz.bins import Bins
+
+EdgeSource: TypeAlias = Literal["grey", "colour"]
+"""What Canny sees: the grey photo, as published, or the colour photo."""
+
+FILTER_SIZES = (3, 5, 7, 9, 11, 13, 15)
+"""Filter sizes that can be trained and applied, in pixels a side."""
+
+
+@dataclass(frozen=True)
+class DetectorConfig:
+    """How a photo becomes a skyline; the defaults are the best found by cross-validation."""
+
+    edge_source: EdgeSource = "colour"
+    """What Canny sees: the colour photo, or the grey one as published."""
+
+    low_threshold: float = 50.0
+    """Lower Canny threshold, on the L1 Sobel gradient of 8-bit values."""
+
+    high_threshold: float = 220.0
+    """Upper Canny threshold, same unit."""
+
+    fit_thresholds: bool = True
+    """Whether the thresholds are lowered for soft and hazy photos, see `fitted_thresholds`."""
+
+    frame: int = 4
+    """Rows at the top and at the bottom in which edges are taken for a picture frame and dropped."""
+
+    v: float = 0.5
+    """Weight of the score against the gradient strength, in [0, 1] (the paper's ``v``)."""
+
+    strength_percentile: float = 95.0
+    """Percentile of a photo's gradient strengths that counts as full strength, in (0, 100]."""
+
+    non_edge_cost: float = 2.0
+    """Nodal cost of a pixel without an edge; edge pixels cost 0 to 1."""
+
+    clear_sky: float = 0.03
+    """Cost that each edge pixel above a pixel adds to it; 0 switches the term off."""
+
+    delta: int = 4
+    """Largest change of row between neighbouring columns, in pixels."""
+
+    link_weight: float = 0.1
+    """Link cost of one pixel of row change."""
+
+    working_megapixels: float = 1.5
+    """Size, in million pixels, above which a photo is searched reduced and then refined."""
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their range with a sentence that names the field."""
+        for name, low, high in _RANGES:
+            value = getattr(self, name)
+            if (
+                isinstance(value, bool)
+                or not isinstance(value, int | float)
+                or not low <= value <= high
+            ):
+                raise ValueError(f"{name} is a number from {low:g} to {high:g}, not {value!r}")
+        for name in ("frame", "delta"):
+            if not isinstance(getattr(self, name), int):
+                raise ValueError(f"{name} is a whole number, not {getattr(self, name)!r}")
+        if self.edge_source not in ("grey", "colour"):
+            raise ValueError(f"edge_source is 'grey' or 'colour', not {self.edge_source!r}")
+        if self.low_threshold > self.high_threshold:
+            raise ValueError("low_threshold is at most high_threshold")
+
+    @classmethod
+    def paper(cls) -> "DetectorConfig":
+        """Return the published method: grey edges, fixed thresholds, no clear-sky term, one size.
+
+        The paper's infinite cost of non-edge pixels is a finite one here, and ``delta`` is 1 with
+        free links; the paper leaves both open.
+        """
+        return cls(
+            edge_source="grey",
+            fit_thresholds=False,
+            frame=0,
+            strength_percentile=100.0,
+            non_edge_cost=3.0,
+            clear_sky=0.0,
+            delta=1,
+            link_weight=0.0,
+            working_megapixels=1e6,
+        )
+
+
+_RANGES: tuple[tuple[str, float, float], ...] = (
+    ("low_threshold", 0, 1e5),
+    ("high_threshold", 0, 1e5),
+    ("frame", 0, 1e4),
+    ("v", 0, 1),
+    ("strength_percentile", 1, 100),
+    ("non_edge_cost", 0, 1e6),
+    ("clear_sky", 0, 1e3),
+    ("delta", 0, 1e5),
+    ("link_weight", 0, 1e6),
+    ("working_megapixels", 0.01, 1e6),
+)
+
+
+@dataclass(frozen=True)
+class TrainingConfig:
+    """How samples are drawn and filters are solved."""
+
+    bins: Bins = field(default_factory=Bins)
+    """How strength, coherence and orientation are quantised."""
+
+    filter_size: int = 7
+    """Pixels a side of a filter: 3, 5, 7, 9, 11, 13 or 15."""
+
+    band: float = 10.0
+    """Negatives are drawn from edges more than this many rows off the truth."""
+
+    smoothness: float = 100.0
+    """Weight of ``Q``, which draws neighbouring taps together; in squared grey levels."""
+
+    detector: DetectorConfig = field(default_factory=DetectorConfig)
+    """Whose edges and working size are used, so that training sees what detection will see."""
+
+    def __post_init__(self) -> None:
+        """Refuse values outside their range with a sentence that names the field."""
+        if self.filter_size not in FILTER_SIZES:
+            raise ValueError(f"filter_size is one of {FILTER_SIZES}, not {self.filter_size}")
+        if not (0 <= self.band < math.inf and 0 <= self.smoothness < math.inf):
+            raise ValueError("band and smoothness are finite and not negative")

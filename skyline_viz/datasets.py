@@ -1,0 +1,331 @@
+"""Opening data sets: the layouts that their authors publish, and plain folders of photographs.
+
+=========  =================================  ====================================================
+layout     photos                             truth
+=========  =================================  ====================================================
+Basalt     ``images/marsim0001.pgm``          ``ground_truth/GT_marsim001_Edge.bmp``
+Web        ``images/R_GImag0001.bmp``         ``ground_truth/GT_GoogleImage001_Edge.bmp``
+CH1        ``PART/images/NAME.EXT``           ``PART/ground_truth/NAME-mask.EXT``
+GeoPose3K  ``NAME/photo.jpg``                 ``NAME/pinhole/labels*.png``, ``NAME/labels*.png``
+plain      ``images/*``, else ``*``           in ``masks/``, ``ground_truth/`` or beside the photo
+=========  =================================  ====================================================
+
+A truth is a painted copy of the photo (one pure red or pure blue pixel a column), a mask (0 is
+sky, 255 terrain, cut at 128), or a `Skyline` in CSV or JSON; which one is told by content. It has
+the photo's name, to which ``-mask``, ``_mask`` or ``_Edge`` may be added; Basalt and Web go by
+number. Several truths of a photo: the first counts, CSV and JSON before pictures.
+
+GeoPose3K's label maps are rendered from a terrain model; black, (0, 0, 0), is taken for its sky,
+and every other colour, blends at borders too, for terrain. A column without sky, or with nothing
+else, is not visible: there the skyline lies outside the picture. Its maps in ``cyl/`` are in a
+cylindrical projection, to which the photo does not fit, and are not used.
+"""
+
+import os
+import re
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from skyline_viz.arrays import U8
+from skyline_viz.photo import PhotoError, find_photos, photo_size, read_photo
+from skyline_viz.skyline import Skyline, SkylineError
+
+Layout = Literal["Basalt", "Web", "CH1", "GeoPose3K", "plain"]
+"""The published layouts, and the folder of photographs that follows none of them."""
+
+_CH1_PARTS = ("cvg", "panoramio", "poor_edge_images")
+_NUMBERED = re.compile(r"(?:gt_)?(?:(marsim)|r_gimag|googleimage)(\d+)(?:_edge)?", re.IGNORECASE)
+_ADDED = re.compile(r"([-_]mask|_edge)$", re.IGNORECASE)
+_SKYLINE_SUFFIXES = (".csv", ".json")
+
+
+class DatasetError(ValueError):
+    """A folder is not a data set; the message is one sentence naming the folder and the reason."""
+
+
+@dataclass(frozen=True)
+class DatasetItem:
+    """One photo of a data set and its truth, both read only when asked for."""
+
+    name: str
+    """Unique in the data set: the file's stem, for CH1 ``part/stem``, for GeoPose3K the folder."""
+
+    photo_path: Path
+    """The photo's file."""
+
+    truth_path: Path | None = None
+    """The truth's file: painted photo, mask, label map, CSV or JSON. None where there is none."""
+
+    label_map: bool = False
+    """Whether the truth is a GeoPose3K label map, in which black is sky."""
+
+    def photo(self) -> U8:
+        """Read the photo, ``(H, W, 3)`` uint8 RGB.
+
+        Raises:
+            PhotoError: It cannot be read.
+        """
+        return read_photo(self.photo_path)
+
+    def truth(self) -> Skyline | None:
+        """Read the truth; None where there is none.
+
+        Raises:
+            SkylineError: The file is damaged, or is no truth; the message names it.
+        """
+        return None if self.truth_path is None else _read_truth(self.truth_path, self.label_map)
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """The photos of a folder, sorted by name: iterate over it, or ask for its length."""
+
+    name: str
+    """The name of the folder."""
+
+    layout: Layout
+    """How photos and truths were matched."""
+
+    items: tuple[DatasetItem, ...]
+    """The photos with their truths, by name."""
+
+    problems: tuple[str, ...] = ()
+    """One sentence for each file that was left out, naming it and the reason."""
+
+    def __iter__(self) -> Iterator[DatasetItem]:
+        return iter(self.items)
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+
+def open_dataset(folder: str | os.PathLike[str]) -> Dataset:
+    """Open a data set, or the folder in which a single one lies, and match photos with truths.
+
+    Looks at names and headers and reads no pixels. A photo without truth is fine. A truth without
+    photo, or of another size than its photo, is left out and named in `Dataset.problems`. Hidden
+    files are ignored.
+
+    Raises:
+        DatasetError: The folder is missing, is a file, cannot be listed, holds no photograph, or
+            holds several data sets.
+    """
+    root = Path(folder)
+    try:
+        if not root.is_dir():
+            reason = "is a file, not a folder" if root.exists() else "does not exist"
+            raise DatasetError(f"{root} {reason}.")
+        found = [dataset] if (dataset := _recognise(root)) else _inside(root)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise DatasetError(f"{root} cannot be read: {reason.lower()}.") from error
+    if not found:
+        raise DatasetError(f"{root} holds no photograph.")
+    if len(found) > 1:
+        names = ", ".join(dataset.name for dataset in found)
+        raise DatasetError(f"{root} holds several data sets, {names}; open one of them.")
+    return found[0]
+
+
+def _inside(root: Path) -> list[Dataset]:
+    """Data sets one level down; loose photos there are somebody's pictures, not a data set."""
+    found = [(child, _recognise(child)) for child in _folders(root)]
+    return [
+        dataset
+        for child, dataset in found
+        if dataset and (dataset.layout != "plain" or _folder(child, "images"))
+    ]
+
+
+def _recognise(root: Path) -> Dataset | None:
+    items: list[DatasetItem] = []
+    problems: list[str] = []
+    layout: Layout = "GeoPose3K"
+    folders = _folders(root)
+    plain = _folder(root, "images") is not None
+    parts = [part for part in folders if part.name.lower() in _CH1_PARTS]
+    if parts := [part for part in parts if _folder(part, "images")]:
+        layout = "CH1"
+        for part in parts:
+            items += _match(root, part, f"{part.name}/", problems)
+    elif not plain and _photo_of(root) and _label_maps(root):
+        items += _geopose3k(root, [root], problems)
+    elif not plain and any(_photo_of(folder) and _label_maps(folder) for folder in folders):
+        items += _geopose3k(root, folders, problems)
+    elif items := _match(root, root, "", problems):
+        numbered = [match for item in items if (match := _NUMBERED.fullmatch(item.name))]
+        layout = "plain"
+        if 2 * len(numbered) > len(items):
+            layout = "Basalt" if numbered[0][1] else "Web"
+    else:
+        items += _geopose3k(root, folders, problems)
+    if not items:
+        return None
+    items.sort(key=lambda item: item.name)
+    return Dataset(root.absolute().name, layout, tuple(items), tuple(problems))
+
+
+def _match(root: Path, folder: Path, prefix: str, problems: list[str]) -> list[DatasetItem]:
+    """Photos of ``folder/images``, else of `folder`, each with the truth that has its name."""
+    images = _folder(folder, "images")
+    images = images if images and find_photos(images) else folder
+    files = find_photos(images)
+    stems = {file.stem for file in files}
+
+    def is_truth(file: Path) -> bool:  # but knife_edge.jpg is a photo, unless there is a knife.jpg
+        added = _ADDED.search(file.stem)
+        return added is not None and (_bare(file) in stems or added[1].lower() != "_edge")
+
+    photos = [file for file in files if not is_truth(file)]
+    truths = [file for file in _skyline_files(images) if _begins_like_a_skyline(file)]
+    for place in (_folder(folder, "ground_truth"), _folder(folder, "masks")):
+        truths += [*_skyline_files(place), *find_photos(place)] if place else []
+    truths += [file for file in files if is_truth(file)]
+    truths.sort(key=lambda file: file.suffix.lower() not in _SKYLINE_SUFFIXES)
+
+    matched: dict[Path, list[Path]] = {photo: [] for photo in photos}
+    named: dict[str, list[list[Path]]] = {}
+    for photo, candidates in matched.items():
+        named.setdefault(_key(photo.stem), []).append(candidates)
+    for truth in truths:
+        for candidates in (found := named.get(_key(truth.stem)) or named.get(_bare(truth), [])):
+            candidates.append(truth)
+        if not found:
+            problems.append(f"{truth.relative_to(root)} has no photo.")
+
+    repeated = Counter(photo.stem for photo in photos)
+    return [
+        DatasetItem(
+            prefix + (photo.name if repeated[photo.stem] > 1 else photo.stem),
+            photo,
+            _choose(root, photo, candidates, problems),
+        )
+        for photo, candidates in matched.items()
+    ]
+
+
+def _geopose3k(root: Path, folders: list[Path], problems: list[str]) -> list[DatasetItem]:
+    """One photo a folder."""
+    items = []
+    for folder in folders:
+        photo, maps = _photo_of(folder), _label_maps(folder)
+        if photo:
+            truth = _choose(root, photo, maps, problems)
+            items.append(DatasetItem(folder.absolute().name, photo, truth, label_map=True))
+        elif maps:
+            problems.append(f"{maps[0].relative_to(root)} has no photo.")
+    return items
+
+
+def _choose(root: Path, photo: Path, truths: list[Path], problems: list[str]) -> Path | None:
+    """Return the first truth that has the photo's size; name the others."""
+    chosen = None
+    for truth in truths:
+        if misfit := _misfit(photo, truth):
+            problems.append(f"{truth.relative_to(root)} {misfit}.")
+        elif chosen:
+            used = chosen.relative_to(root)
+            problems.append(f"{truth.relative_to(root)} is not used, because {used} is there.")
+        else:
+            chosen = truth
+    return chosen
+
+
+def _misfit(photo: Path, truth: Path) -> str | None:
+    """How sizes differ; None where they agree, or where a damaged file does not tell its size."""
+    try:
+        height, width = photo_size(photo)
+        if truth.suffix.lower() in _SKYLINE_SUFFIXES:
+            found, wanted = f"{_read_truth(truth).width} columns", f"{width}"
+        else:
+            found, wanted = "{1}x{0} pixels".format(*photo_size(truth)), f"{width}x{height}"
+    except (PhotoError, SkylineError):
+        return None  # told when it is read
+    return None if found.split()[0] == wanted else f"has {found}, and its photo {wanted}"
+
+
+def _read_truth(path: Path, label_map: bool = False) -> Skyline:
+    try:
+        if path.suffix.lower() == ".csv":
+            return Skyline.read_csv(path)
+        if path.suffix.lower() == ".json":
+            return Skyline.read_json(path)
+        pixels = read_photo(path)
+    except PhotoError as error:
+        raise SkylineError(str(error)) from error
+    except OSError as error:
+        raise SkylineError(f"{path} cannot be read: {error.strerror}.") from error
+    try:
+        if label_map:
+            return _from_label_map(pixels)
+        grey = (pixels.max(axis=2) - pixels.min(axis=2)).max() < 32  # JPEG tints a grey mask a bit
+        return _from_mask(pixels[:, :, 1]) if grey else Skyline.from_painted(pixels)
+    except SkylineError as error:
+        raise SkylineError(f"{path} is no truth: {error}.") from error
+
+
+def _from_mask(grey: U8) -> Skyline:
+    """Skyline of a mask ``(H, W)``; refuses what would silently give a wrong truth."""
+    if 0 < grey.max() < 128:
+        raise SkylineError(f"its brightest value is {grey.max()}, and terrain is 255 in a mask")
+    terrain = grey >= 128
+    skyline = Skyline.from_mask(~terrain)
+    upside_down = terrain[0].all() and not terrain[-1].any()
+    if upside_down or (skyline.to_mask(len(grey)) == terrain).mean() > 0.2:  # a few lakes are fine
+        raise SkylineError("it is neither painted nor a mask with sky (0) above terrain (255)")
+    return skyline
+
+
+def _from_label_map(pixels: U8) -> Skyline:
+    """Skyline of a GeoPose3K label map ``(H, W, 3)``."""
+    rows = Skyline.from_mask((pixels == 0).all(axis=2)).rows
+    visible = (rows > 0) & (rows < len(pixels))
+    if not visible.any():
+        raise SkylineError("no column holds both sky (black) and terrain")
+    return Skyline(rows, visible)
+
+
+def _key(stem: str) -> str:
+    """What photo and truth have in common: the series and its number, else the name itself."""
+    numbered = _NUMBERED.fullmatch(stem)
+    return f"{'marsim' if numbered[1] else 'web'} {int(numbered[2])}" if numbered else stem
+
+
+def _bare(truth: Path) -> str:
+    return _ADDED.sub("", truth.stem)
+
+
+def _folders(folder: Path) -> list[Path]:
+    inside = (child for child in folder.iterdir() if not child.name.startswith("."))
+    return sorted(child for child in inside if child.is_dir() and os.access(child, os.R_OK))
+
+
+def _folder(parent: Path, name: str) -> Path | None:
+    return next((child for child in _folders(parent) if child.name.lower() == name), None)
+
+
+def _skyline_files(folder: Path) -> list[Path]:
+    inside = (file for file in folder.iterdir() if not file.name.startswith("."))
+    return sorted(f for f in inside if f.suffix.lower() in _SKYLINE_SUFFIXES and f.is_file())
+
+
+def _begins_like_a_skyline(file: Path) -> bool:
+    """Whether a CSV or JSON among photos holds a skyline, and not something else about them."""
+    try:
+        with file.open("rb") as opened:
+            return re.search(rb"column,row,visible|skyline", opened.read(80)) is not None
+    except OSError:
+        return False
+
+
+def _photo_of(folder: Path) -> Path | None:
+    return next((file for file in find_photos(folder) if file.stem.lower() == "photo"), None)
+
+
+def _label_maps(folder: Path) -> list[Path]:
+    places = [place for place in (_folder(folder, "pinhole"), folder) if place]
+    files = [file for place in places for file in find_photos(place)]
+    return [file for file in files if file.stem.lower().startswith(("label", "pinhole_label"))]

@@ -1,0 +1,191 @@
+"""The detector: a photo through all stages, and everything that they saw on the way."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from time import perf_counter
+
+import numpy as np
+
+from skyline_viz.arrays import F32, U8, Bool, Int, check_photo
+from skyline_viz.config import DetectorConfig
+from skyline_viz.cost import edge_cost, nodal_cost, normalised
+from skyline_viz.edges import edge_pixels, find_edges, fitted_thresholds, to_grey
+from skyline_viz.filter_bank import FilterBank
+from skyline_viz.path import shortest_path
+from skyline_viz.scale import BAND_ROWS, band_distance, reduced, reduction, rescaled
+from skyline_viz.score import score_at
+from skyline_viz.skyline import Skyline
+from skyline_viz.tensor import tensor_at
+
+
+@dataclass(frozen=True, eq=False)
+class Detection:
+    """A skyline and every stage that led to it. Arrays ``(n,)`` run over the edge pixels."""
+
+    photo: U8
+    """``(H, W, 3)`` uint8 RGB."""
+
+    skyline: Skyline
+    """The detected line."""
+
+    edges: Bool
+    """``(H, W)`` edge map; within the band only, where the photo was refined."""
+
+    edge_rows: Int
+    """``(n,)`` int32 row of each edge pixel."""
+
+    edge_columns: Int
+    """``(n,)`` int32 column of each edge pixel."""
+
+    strength: F32
+    """``(n,)`` gradient strength, in grey levels a pixel."""
+
+    coherence: F32
+    """``(n,)`` coherence, in [0, 1]."""
+
+    orientation: F32
+    """``(n,)`` orientation of the gradient, in degrees, in [0, 180)."""
+
+    bins: Int
+    """``(n,)`` int32 bin, which is the index of the filter."""
+
+    scores: F32
+    """``(n,)`` score, in [0, 1]."""
+
+    cost: F32
+    """``(H, W)`` float32 nodal cost."""
+
+    path_cost: float
+    """Nodal and link costs along the path."""
+
+    thresholds: tuple[float, float]
+    """Canny thresholds that were used."""
+
+    seconds: dict[str, float]
+    """Seconds of each stage: edges, tensor, bins, score, cost, path."""
+
+    config: DetectorConfig
+    """The configuration that was used."""
+
+    bank: FilterBank
+    """The filter bank that was used."""
+
+    coarse: "Detection | None" = None
+    """The search in the reduced photo, where this photo is larger than the working size."""
+
+    @property
+    def total_seconds(self) -> float:
+        """Seconds of all stages, those of the coarse search included."""
+        coarse = self.coarse.total_seconds if self.coarse else 0.0
+        return sum(self.seconds.values()) + coarse
+
+
+@dataclass(frozen=True)
+class Detector:
+    """Finds skylines.
+
+    >>> photo = np.full((40, 60, 3), 200, np.uint8)
+    >>> photo[25:] = 60
+    >>> set(Detector().detect(photo).skyline.rows.tolist())
+    {25.0}
+    """
+
+    bank: FilterBank = field(default_factory=FilterBank.default)
+    """The filter bank; the shipped one unless given."""
+
+    config: DetectorConfig = field(default_factory=DetectorConfig)
+    """The configuration."""
+
+    def detect(self, photo: U8) -> Detection:
+        """Find the skyline of a photo.
+
+        A photo without a single edge gets a level line in the middle; its margins are 0.
+
+        Args:
+            photo: ``(H, W, 3)`` uint8 RGB.
+
+        Raises:
+            TypeError: Not a uint8 array.
+            ValueError: Another shape.
+        """
+        check_photo(photo)
+        photo = np.ascontiguousarray(photo)
+        height, width = photo.shape[:2]
+        factor = reduction(height, width, self.config.working_megapixels)
+        if factor == 1.0:
+            return self._stages(photo, None, 1.0)
+        clock = perf_counter()
+        smaller = reduced(photo, factor)
+        clock = perf_counter() - clock
+        coarse = self._stages(smaller, None, 1.0)
+        coarse.seconds["reduce"] = clock
+        return self._stages(photo, coarse, factor)
+
+    def _stages(self, photo: U8, coarse: Detection | None, factor: float) -> Detection:
+        """All stages at one size; near the line of a coarse detection, where there is one."""
+        config, bank = self.config, self.bank
+        seconds: dict[str, float] = {}
+        height, width = photo.shape[:2]
+        distance = None
+        with _timed(seconds, "edges"):
+            edges, thresholds = candidate_edges(photo, config)
+            if coarse is not None:
+                around = rescaled(coarse.skyline, coarse.photo.shape[0], height, width)
+                distance = band_distance(around.rows, height, BAND_ROWS * factor)
+                edges &= distance <= 1
+            rows, columns = edge_pixels(edges)
+        with _timed(seconds, "tensor"):
+            tensor = tensor_at(photo, rows, columns)
+        with _timed(seconds, "bins"):
+            bins = bank.bins.of(tensor)
+        with _timed(seconds, "score"):
+            scores = score_at(to_grey(photo), rows, columns, bins, bank.filters)
+        with _timed(seconds, "cost"):
+            strength = normalised(tensor.strength, config.strength_percentile)
+            at_edges = edge_cost(scores, strength, config.v)
+            cost = nodal_cost(
+                edges, rows, columns, at_edges, config.non_edge_cost, config.clear_sky
+            )
+            if distance is not None:
+                cost += distance
+        with _timed(seconds, "path"):
+            path = shortest_path(cost, config.delta, config.link_weight)
+        return Detection(
+            photo=photo,
+            skyline=Skyline(rows=path.rows.astype(np.float32)),
+            edges=edges,
+            edge_rows=rows,
+            edge_columns=columns,
+            strength=tensor.strength,
+            coherence=tensor.coherence,
+            orientation=tensor.orientation,
+            bins=bins,
+            scores=scores,
+            cost=cost,
+            path_cost=path.cost,
+            thresholds=thresholds,
+            seconds=seconds,
+            config=config,
+            bank=bank,
+            coarse=coarse,
+        )
+
+
+def candidate_edges(photo: U8, config: DetectorConfig) -> tuple[Bool, tuple[float, float]]:
+    """Edge map ``(H, W)`` of a photo without its frame, and the Canny thresholds that made it."""
+    low, high = config.low_threshold, config.high_threshold
+    if config.fit_thresholds:
+        low, high = fitted_thresholds(photo, low, high)
+    edges = find_edges(photo, config.edge_source, low, high)
+    if config.frame:
+        edges[: config.frame] = False
+        edges[-config.frame :] = False
+    return edges, (low, high)
+
+
+@contextmanager
+def _timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
+    start = perf_counter()
+    yield
+    seconds[stage] = perf_counter() - start

@@ -1,0 +1,180 @@
+"""Stage 6, path: the cheapest way from the first column to the last, and how sure it is.
+
+A path has one row a column. It pays the nodal cost of every pixel that it visits and, between two
+columns, ``link_weight`` times the change of row, which is at most ``delta`` (equation 3). Dynamic
+programming finds the optimum exactly; kept from both sides, its tables tell the cost of the
+cheapest path through any pixel.
+
+The tables run column by column in memory, because the inner loops go down a column.
+"""
+
+from dataclasses import dataclass
+
+import numba
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.arrays import F32, F64, Int
+from skyline_viz.constraints import Constraints, PathError, apply_constraints, find_conflict
+
+
+@dataclass(frozen=True)
+class Path:
+    """A cheapest path."""
+
+    rows: Int
+    """``(W,)`` its row in each column."""
+
+    cost: float
+    """Its nodal and link costs together."""
+
+
+@dataclass(frozen=True)
+class PathTables:
+    """Forward and backward tables of one problem, each ``(H, W)`` float64, infinite = no path."""
+
+    forward: F64
+    """Cost of the cheapest path from the first column to each pixel, its own cost included."""
+
+    backward: F64
+    """Cost of the cheapest path from each pixel to the last column, its own cost included."""
+
+    min_marginals: F64
+    """Cost of the cheapest whole path through each pixel: forward + backward - its own cost."""
+
+
+def shortest_path(
+    cost: npt.NDArray[np.floating],
+    delta: int,
+    link_weight: float,
+    constraints: Constraints | None = None,
+) -> Path:
+    """Find the cheapest path; exact.
+
+    Where several are equally cheap, the one that ends nearest the middle row wins, then the one
+    with the smallest change of row: a photo without any edge gives a level line.
+
+    Args:
+        cost: ``(H, W)`` nodal costs; ``inf`` forbids a pixel.
+        delta: Largest change of row between neighbouring columns, in pixels.
+        link_weight: Cost of one pixel of row change.
+        constraints: What the path must and must not visit.
+
+    Raises:
+        PathError: A cost is NaN or minus infinity, or no path satisfies the constraints.
+    """
+    columns, reach = _problem(cost, delta, link_weight, constraints)
+    forward = _forward(columns, reach, float(link_weight))
+    _require_path(forward, constraints)
+    rows = _trace(forward, reach, float(link_weight))
+    return Path(rows=rows, cost=float(forward[-1, rows[-1]]))
+
+
+def path_tables(
+    cost: npt.NDArray[np.floating],
+    delta: int,
+    link_weight: float,
+    constraints: Constraints | None = None,
+) -> PathTables:
+    """Tables of the problem that `shortest_path` solves; same arguments, same errors."""
+    columns, reach = _problem(cost, delta, link_weight, constraints)
+    forward = _forward(columns, reach, float(link_weight))
+    _require_path(forward, constraints)
+    backward = _forward(columns[::-1], reach[::-1], float(link_weight))[::-1]
+    through = np.full_like(forward, np.inf)
+    np.subtract(forward + backward, columns, out=through, where=np.isfinite(columns))
+    return PathTables(forward=forward.T, backward=backward.T, min_marginals=through.T)
+
+
+def margins(min_marginals: F64, apart: int = 5) -> F64:
+    """Margin of each column, ``(W,)``: how much dearer the best distinct alternative is.
+
+    The gap between a column's best min-marginal and the best one more than `apart` rows away.
+    Small = uncertain; infinite where nothing else is possible.
+    """
+    through = np.ascontiguousarray(min_marginals.T)
+    best = through.argmin(axis=1)
+    lowest = through[np.arange(len(best)), best]
+    near = np.abs(np.arange(through.shape[1])[None, :] - best[:, None]) <= apart
+    return np.maximum(np.where(near, np.inf, through).min(axis=1) - lowest, 0.0)
+
+
+def _problem(
+    cost: npt.NDArray[np.floating],
+    delta: int,
+    link_weight: float,
+    constraints: Constraints | None,
+) -> tuple[npt.NDArray[np.floating], Int]:
+    """Checked nodal costs ``(W, H)`` and the largest change of row on each link ``(W - 1,)``."""
+    if cost.ndim != 2 or cost.size == 0:
+        raise PathError(f"nodal costs have the shape (H, W), not {cost.shape}")
+    if delta < 0 or not 0 <= link_weight < np.inf:
+        raise PathError("delta and link_weight are finite and not negative")
+    lowest = cost.min()  # NaN where there is one
+    if np.isnan(lowest) or lowest == -np.inf:
+        raise PathError("a nodal cost is NaN or minus infinity")
+    height, width = cost.shape
+    reach = np.full(width - 1, min(delta, height - 1), np.int32)
+    columns = np.ascontiguousarray(cost.T)
+    if constraints is None:
+        return columns, reach
+    return apply_constraints(columns, reach, constraints)
+
+
+def _require_path(forward: F64, constraints: Constraints | None) -> None:
+    if np.isfinite(forward[-1]).any():
+        return
+    dead = int(np.flatnonzero(~np.isfinite(forward).any(axis=1))[0])
+    raise PathError(find_conflict(dead, constraints or Constraints()))
+
+
+@numba.njit(cache=True, nogil=True)
+def _forward(columns: F32, reach: Int, link_weight: float) -> F64:
+    """Cheapest cost from column 0 to every pixel, ``(W, H)``; a window of reach pixels a link."""
+    width, height = columns.shape
+    table = np.empty((width, height), np.float64)
+    for row in range(height):
+        table[0, row] = columns[0, row]
+    for column in range(1, width):
+        before = table[column - 1]
+        after = table[column]
+        after[:] = before
+        for change in range(1, reach[column - 1] + 1):
+            link = link_weight * change
+            for row in range(height - change):
+                down = before[row + change] + link
+                after[row] = min(after[row], down)
+            for row in range(change, height):
+                up = before[row - change] + link
+                after[row] = min(after[row], up)
+        for row in range(height):
+            after[row] += columns[column, row]
+    return table
+
+
+@numba.njit(cache=True, nogil=True)
+def _trace(table: F64, reach: Int, link_weight: float) -> Int:
+    """Rows of the cheapest path, walked back through its forward table."""
+    width, height = table.shape
+    rows = np.empty(width, np.int32)
+    best = 0
+    for row in range(height):
+        cheaper = table[-1, row] < table[-1, best]
+        nearer = abs(2 * row - height) < abs(2 * best - height)
+        if cheaper or (table[-1, row] == table[-1, best] and nearer):
+            best = row
+    rows[-1] = best
+    for column in range(width - 2, -1, -1):
+        row = rows[column + 1]
+        best = row
+        lowest = table[column, row]
+        for change in range(1, reach[column] + 1):
+            link = link_weight * change
+            if row - change >= 0 and table[column, row - change] + link < lowest:
+                best = row - change
+                lowest = table[column, best] + link
+            if row + change < height and table[column, row + change] + link < lowest:
+                best = row + change
+                lowest = table[column, best] + link
+        rows[column] = best
+    return rows

@@ -1,0 +1,204 @@
+"""Training: Gram matrices gathered photo by photo, then one small linear system a bin.
+
+A Gram matrix is a plain sum over training samples (equations 6 and 7), so the work can be spread
+over photos, processes and machines and added up. Patches are whole numbers and targets whole or
+half ones, so the float64 sums are exact: the order of adding does not matter.
+"""
+
+import math
+import zlib
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz import __version__
+from skyline_viz.arrays import F64, U8, Int, check_photo
+from skyline_viz.bins import Bins
+from skyline_viz.config import TrainingConfig
+from skyline_viz.detector import candidate_edges
+from skyline_viz.edges import edge_pixels, to_grey
+from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank, Provenance
+from skyline_viz.scale import reduced, reduction, rescaled
+from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.tensor import tensor_at
+
+POSITIVE_TARGET = 255.0
+"""What a filter should give on the skyline."""
+
+NEGATIVE_TARGET = 127.5
+"""What a filter should give on other edges."""
+
+
+@dataclass(frozen=True)
+class GramMatrices:
+    """Sums over training samples, bin by bin; two of them add up."""
+
+    sums: F64
+    """``(K, n * n + 1, n * n + 1)`` sums of outer products of (patch, target)."""
+
+    samples: npt.NDArray[np.int64]
+    """``(K,)`` number of samples, flipped ones included."""
+
+    images: int
+    """Number of photos."""
+
+    @classmethod
+    def empty(cls, config: TrainingConfig) -> "GramMatrices":
+        """Sums over no sample."""
+        length = config.filter_size**2 + 1
+        count = config.bins.count
+        return cls(np.zeros((count, length, length)), np.zeros(count, np.int64), 0)
+
+    def __add__(self, other: "GramMatrices") -> "GramMatrices":
+        """Sums over both sets of samples."""
+        return GramMatrices(
+            self.sums + other.sums, self.samples + other.samples, self.images + other.images
+        )
+
+
+def train(
+    examples: Iterable[tuple[U8, Skyline]],
+    seed: int = 0,
+    config: TrainingConfig | None = None,
+    dataset: str = "",
+) -> FilterBank:
+    """Learn a filter bank from photos and their true skylines.
+
+    Args:
+        examples: Pairs of a photo ``(H, W, 3)`` uint8 RGB and its skyline; read one at a time.
+        seed: Seed of the negative samples; the same seed and examples give the same bank.
+        config: How samples are drawn and filters are solved.
+        dataset: Name for the bank's provenance.
+
+    Raises:
+        ValueError: No example, or one whose photo and skyline differ in width.
+    """
+    config = config or TrainingConfig()
+    gram = GramMatrices.empty(config)
+    for photo, truth in examples:
+        gram += gather(photo, truth, seed, config)
+    if gram.images == 0:
+        raise ValueError("training needs at least one photo with a true skyline")
+    return solve(gram, seed, config, dataset)
+
+
+def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> GramMatrices:
+    """Gram matrices of one photo.
+
+    Positives are the pixels of the true line, negatives as many edge pixels away from it; all of
+    them count a second time, flipped left-right.
+
+    Raises:
+        SkylineError: The photo and the truth differ in width.
+    """
+    check_photo(photo)
+    height, width = photo.shape[:2]
+    if truth.width != width:
+        raise SkylineError(f"the truth has {truth.width} columns, the photo {width}")
+    factor = reduction(height, width, config.detector.working_megapixels)
+    if factor > 1:
+        photo = reduced(photo, factor)
+        truth = rescaled(truth, height, *photo.shape[:2])
+        height, width = photo.shape[:2]
+    truth_rows = truth.pixel_rows(height).astype(np.int32)
+    columns = np.flatnonzero(truth.visible & (truth_rows < height)).astype(np.int32)
+    rows = truth_rows[columns]
+    edge_rows, edge_columns = edge_pixels(candidate_edges(photo, config.detector)[0])
+    off_line = np.abs(edge_rows - truth_rows[edge_columns]) > config.band
+    negatives = np.flatnonzero(off_line & truth.visible[edge_columns])
+    # the draw depends on the photo, not on its place in the list: halves add up to the whole
+    rng = np.random.default_rng([seed, zlib.crc32(photo.tobytes())])
+    drawn = rng.permutation(negatives)[: len(rows)]
+    rows = np.concatenate([rows, edge_rows[drawn]])
+    targets = np.repeat([POSITIVE_TARGET, NEGATIVE_TARGET], [len(columns), len(drawn)])
+    columns = np.concatenate([columns, edge_columns[drawn]])
+    index = config.bins.of(tensor_at(photo, rows, columns))
+    patches = _patches(to_grey(photo), rows, columns, config.filter_size)
+    return _summed(np.column_stack([patches, targets]), index, config.bins)
+
+
+def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = "") -> FilterBank:
+    """Filters of all bins, ``(Q + A'A)^-1 A'b`` (equation 5); a starved bin takes a pooled one.
+
+    Args:
+        gram: Sums over all training photos.
+        seed: Seed with which they were gathered, for the provenance.
+        config: The same as for `gather`.
+        dataset: Name for the provenance.
+    """
+    filters = regress(gram.sums, config.smoothness)
+    fallback = regress(pooled(gram.sums, config.bins), config.smoothness)
+    starved = gram.samples < STARVED_SAMPLES
+    return FilterBank(
+        filters=np.where(starved[:, None, None], fallback, filters).astype(np.float32),
+        samples=gram.samples,
+        bins=config.bins,
+        provenance=Provenance(
+            dataset=dataset,
+            images=gram.images,
+            seed=seed,
+            edges=config.detector.edge_source,
+            smoothness=config.smoothness,
+            package=__version__,
+        ),
+    )
+
+
+def regress(sums: F64, smoothness: float) -> F64:
+    """Filters ``(K, n, n)`` that solve the regularised least squares of each Gram matrix."""
+    size = math.isqrt(sums.shape[1] - 1)
+    # a trace of the unit matrix keeps a bin without any sample solvable: its filter is zero
+    regulariser = smoothness * smoothness_form(size) + 1e-3 * np.eye(size * size)
+    system = sums[:, :-1, :-1] + regulariser
+    return np.linalg.solve(system, sums[:, :-1, -1:]).reshape(-1, size, size)
+
+
+def pooled(sums: F64, bins: Bins, over: tuple[int, ...] = (0, 1)) -> F64:
+    """Gram matrices in which each bin holds the sum over all bins that differ from it in `over`.
+
+    Args:
+        sums: ``(K, n, n)``.
+        bins: Their bins.
+        over: 0 pools coherence, 1 strength, 2 orientation.
+    """
+    grid = sums.reshape(*bins.shape, *sums.shape[1:])
+    return np.broadcast_to(grid.sum(axis=over, keepdims=True), grid.shape).reshape(sums.shape)
+
+
+def smoothness_form(size: int) -> F64:
+    """``Q``: the sum of squared differences of neighbouring taps, ``(n * n, n * n)``.
+
+    >>> smoothness_form(3) @ np.ones(9)
+    array([0., 0., 0., 0., 0., 0., 0., 0., 0.])
+    """
+    line = np.diff(np.eye(size), axis=0)
+    chain = line.T @ line  # Laplacian of taps in a row
+    return np.kron(chain, np.eye(size)) + np.kron(np.eye(size), chain)
+
+
+def _summed(samples: F64, index: Int, bins: Bins) -> GramMatrices:
+    """Gram matrices of samples ``(m, n * n + 1)`` and of their left-right flipped twins.
+
+    Flipping permutes the taps of a patch and moves its bin to the mirrored one, nothing else.
+    """
+    length = samples.shape[1]
+    sums = np.zeros((bins.count, length, length))
+    order = np.argsort(index, kind="stable")
+    found, starts = np.unique(index[order], return_index=True)
+    for bin_index, members in zip(found, np.split(order, starts[1:]), strict=False):
+        sums[bin_index] = samples[members].T @ samples[members]
+    counts = np.bincount(index, minlength=bins.count)
+    size = math.isqrt(length - 1)
+    taps = np.append(np.arange(size * size).reshape(size, size)[:, ::-1].ravel(), size * size)
+    mirrored = bins.mirrored()
+    sums += sums[mirrored[:, None, None], taps[:, None], taps]
+    return GramMatrices(sums, counts + counts[mirrored], 1)
+
+
+def _patches(grey: U8, rows: Int, columns: Int, size: int) -> F64:
+    """Patches around pixels as rows of a matrix, ``(m, n * n)``; the border is repeated."""
+    padded = np.pad(grey, size // 2, mode="edge")
+    windows = np.lib.stride_tricks.sliding_window_view(padded, (size, size))
+    return windows[rows, columns].reshape(len(rows), size * size).astype(np.float64)
