@@ -44,6 +44,10 @@ class DetectorConfig:
     clear_sky: float = 0.03
     """Cost that each edge pixel above a pixel adds to it; 0 switches the term off."""
 
+    terrain_weight: float = 4.0
+    """Cost of calling the whole height of a photo sky where it surely looks like terrain, and
+    gain where it surely looks like sky; 0 switches the term off."""
+
     delta: int = 4
     """Largest change of row between neighbouring columns, in pixels."""
 
@@ -85,6 +89,7 @@ class DetectorConfig:
             strength_percentile=100.0,
             non_edge_cost=3.0,
             clear_sky=0.0,
+            terrain_weight=0.0,
             delta=1,
             link_weight=0.0,
             working_megapixels=1e6,
@@ -99,6 +104,7 @@ _RANGES: tuple[tuple[str, float, float], ...] = (
     ("strength_percentile", 1, 100),
     ("non_edge_cost", 0, 1e6),
     ("clear_sky", 0, 1e3),
+    ("terrain_weight", 0, 1e3),
     ("delta", 0, 1e5),
     ("link_weight", 0, 1e6),
     ("working_megapixels", 0.01, 1e6),

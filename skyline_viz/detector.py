@@ -17,6 +17,7 @@ from skyline_viz.scale import BAND_ROWS, band_distance, reduced, reduction, resc
 from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
 from skyline_viz.tensor import tensor_at
+from skyline_viz.terrain import terrain_above
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,6 +150,9 @@ class Detector:
             )
             if distance is not None:
                 cost += distance
+            elif config.terrain_weight:
+                above = terrain_above(photo, edges, bank.terrain)
+                cost += np.float32(config.terrain_weight) * above
         with _timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
         return Detection(

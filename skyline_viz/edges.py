@@ -48,8 +48,10 @@ def find_edges(photo: U8, source: EdgeSource, low: float, high: float) -> Bool:
         ``(H, W)`` bool, True on edge pixels.
     """
     seen = to_grey(photo) if source == "grey" else photo
-    edges: U8 = cv2.Canny(seen, low, high)
-    return edges.view(np.bool_) & True
+    # where two rows have the same gradient Canny takes the upper one, which on a sharp skyline is
+    # sky; upside down it takes the first row of terrain
+    edges: U8 = cv2.flip(cv2.Canny(cv2.flip(seen, 0), low, high), 0)
+    return edges > 0
 
 
 def fitted_thresholds(photo: U8, low: float, high: float) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from skyline_viz.arrays import F32, read_only
 from skyline_viz.bins import Bins
 from skyline_viz.config import FILTER_SIZES
 from skyline_viz.files import replacing
+from skyline_viz.terrain import FEATURES
 
 FORMAT = "skyline-viz filter bank"
 VERSION = 1
@@ -57,6 +58,9 @@ class FilterBank:
     samples: npt.NDArray[np.int64]
     """``(K,)`` training samples, flipped ones included, that fell into each bin."""
 
+    terrain: F32 = field(default_factory=lambda: np.zeros(FEATURES, np.float32))
+    """``(FEATURES,)`` weights of the block model of sky and terrain; zeros say nothing."""
+
     bins: Bins = field(default_factory=Bins)
     """How a pixel finds its bin; ``K`` is ``bins.count``."""
 
@@ -67,6 +71,7 @@ class FilterBank:
         """Check and freeze the arrays."""
         filters = np.array(self.filters, np.float32)
         samples = np.array(self.samples, np.int64)
+        terrain = np.array(self.terrain, np.float32)
         count = self.bins.count
         if filters.ndim != 3 or filters.shape[0] != count or filters.shape[1] != filters.shape[2]:
             raise FilterBankError(f"{count} bins need filters ({count}, n, n), not {filters.shape}")
@@ -76,12 +81,13 @@ class FilterBank:
             )
         if samples.shape != (count,) or (samples < 0).any():
             raise FilterBankError(f"{count} bins need {count} sample counts of 0 or more")
-        if not np.isfinite(filters).all():
-            raise FilterBankError("a filter has a tap that is not finite")
-        read_only(filters)
-        read_only(samples)
-        object.__setattr__(self, "filters", filters)
-        object.__setattr__(self, "samples", samples)
+        if terrain.shape != (FEATURES,):
+            raise FilterBankError(f"the block model has {FEATURES} weights, not {terrain.shape}")
+        if not (np.isfinite(filters).all() and np.isfinite(terrain).all()):
+            raise FilterBankError("a filter or the block model has a weight that is not finite")
+        for name, array in (("filters", filters), ("samples", samples), ("terrain", terrain)):
+            read_only(array)
+            object.__setattr__(self, name, array)
 
     @property
     def size(self) -> int:
@@ -105,6 +111,7 @@ class FilterBank:
             "header": np.frombuffer(json.dumps(header).encode(), np.uint8),
             "filters": self.filters,
             "samples": self.samples,
+            "terrain": self.terrain,
         }
         with replacing(path) as temporary, temporary.open("wb") as file:
             np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # ** reaches allow_pickle
@@ -131,6 +138,7 @@ class FilterBank:
                 return cls(
                     filters=archive["filters"],
                     samples=archive["samples"],
+                    terrain=archive["terrain"],
                     bins=Bins(**header["bins"]),
                     provenance=Provenance(**header["provenance"]),
                 )

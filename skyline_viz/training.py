@@ -23,6 +23,7 @@ from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank, Provenance
 from skyline_viz.scale import reduced, reduction, rescaled
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.tensor import tensor_at
+from skyline_viz.terrain import FEATURES, solve_terrain, terrain_sums
 
 POSITIVE_TARGET = 255.0
 """What a filter should give on the skyline."""
@@ -41,6 +42,9 @@ class GramMatrices:
     samples: npt.NDArray[np.int64]
     """``(K,)`` number of samples, flipped ones included."""
 
+    terrain: F64
+    """``(FEATURES + 1, FEATURES + 1)`` sums for the block model of sky and terrain."""
+
     images: int
     """Number of photos."""
 
@@ -49,12 +53,16 @@ class GramMatrices:
         """Sums over no sample."""
         length = config.filter_size**2 + 1
         count = config.bins.count
-        return cls(np.zeros((count, length, length)), np.zeros(count, np.int64), 0)
+        terrain = np.zeros((FEATURES + 1, FEATURES + 1))
+        return cls(np.zeros((count, length, length)), np.zeros(count, np.int64), terrain, 0)
 
     def __add__(self, other: "GramMatrices") -> "GramMatrices":
         """Sums over both sets of samples."""
         return GramMatrices(
-            self.sums + other.sums, self.samples + other.samples, self.images + other.images
+            self.sums + other.sums,
+            self.samples + other.samples,
+            self.terrain + other.terrain,
+            self.images + other.images,
         )
 
 
@@ -105,7 +113,8 @@ def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> Gram
     truth_rows = truth.pixel_rows(height).astype(np.int32)
     columns = np.flatnonzero(truth.visible & (truth_rows < height)).astype(np.int32)
     rows = truth_rows[columns]
-    edge_rows, edge_columns = edge_pixels(candidate_edges(photo, config.detector)[0])
+    edges, _ = candidate_edges(photo, config.detector)
+    edge_rows, edge_columns = edge_pixels(edges)
     off_line = np.abs(edge_rows - truth_rows[edge_columns]) > config.band
     negatives = np.flatnonzero(off_line & truth.visible[edge_columns])
     # the draw depends on the photo, not on its place in the list: halves add up to the whole
@@ -116,7 +125,8 @@ def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> Gram
     columns = np.concatenate([columns, edge_columns[drawn]])
     index = config.bins.of(tensor_at(photo, rows, columns))
     patches = _patches(to_grey(photo), rows, columns, config.filter_size)
-    return _summed(np.column_stack([patches, targets]), index, config.bins)
+    sums, samples = _summed(np.column_stack([patches, targets]), index, config.bins)
+    return GramMatrices(sums, samples, terrain_sums(photo, edges, truth), 1)
 
 
 def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = "") -> FilterBank:
@@ -134,6 +144,7 @@ def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = 
     return FilterBank(
         filters=np.where(starved[:, None, None], fallback, filters).astype(np.float32),
         samples=gram.samples,
+        terrain=solve_terrain(gram.terrain),
         bins=config.bins,
         provenance=Provenance(
             dataset=dataset,
@@ -178,7 +189,7 @@ def smoothness_form(size: int) -> F64:
     return np.kron(chain, np.eye(size)) + np.kron(np.eye(size), chain)
 
 
-def _summed(samples: F64, index: Int, bins: Bins) -> GramMatrices:
+def _summed(samples: F64, index: Int, bins: Bins) -> tuple[F64, npt.NDArray[np.int64]]:
     """Gram matrices of samples ``(m, n * n + 1)`` and of their left-right flipped twins.
 
     Flipping permutes the taps of a patch and moves its bin to the mirrored one, nothing else.
@@ -194,7 +205,7 @@ def _summed(samples: F64, index: Int, bins: Bins) -> GramMatrices:
     taps = np.append(np.arange(size * size).reshape(size, size)[:, ::-1].ravel(), size * size)
     mirrored = bins.mirrored()
     sums += sums[mirrored[:, None, None], taps[:, None], taps]
-    return GramMatrices(sums, counts + counts[mirrored], 1)
+    return sums, counts + counts[mirrored]
 
 
 def _patches(grey: U8, rows: Int, columns: Int, size: int) -> F64:

@@ -1,0 +1,33 @@
+.PHONY: demo test check bench samples lock clean
+
+SOURCES = pyproject.toml requirements-dev.txt tools/setup.sh
+
+demo: .venv/.installed-run  ## Find the skylines of the samples, or of PHOTOS=FOLDER, and show them.
+	.venv/bin/skyline-viz demo $(if $(PHOTOS),"$(PHOTOS)")
+
+test: check  ## Everything that must hold: lint, types, doctests, tests.
+	.venv/bin/python -m pytest
+
+check: .venv/.installed-dev  ## Lint and types only.
+	.venv/bin/ruff check .
+	.venv/bin/ruff format --check .
+	.venv/bin/mypy
+
+bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the folder of the real data sets.
+	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)")
+
+samples: .venv/.installed-run  ## Rebuild sample_data, byte for byte.
+	.venv/bin/skyline-viz render --out sample_data
+
+lock: .venv/.installed-dev  ## Renew the locked development set.
+	.venv/bin/uv pip compile --quiet --universal --python-version 3.11 --group dev pyproject.toml \
+	    --no-emit-index-url --no-header --output-file requirements-dev.txt
+
+clean:
+	rm -rf .venv build dist skyline-demo
+
+.venv/.installed-run: $(SOURCES)
+	tools/setup.sh run
+
+.venv/.installed-dev: $(SOURCES)
+	tools/setup.sh dev

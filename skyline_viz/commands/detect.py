@@ -1,0 +1,118 @@
+"""``skyline-viz detect``: photos in, a line of CSV for each column out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import tyro
+
+from skyline_viz.batch import Failure, run
+from skyline_viz.commands.inputs import Input, collect, output_folder
+from skyline_viz.commands.messages import UsageError, counted, status_after
+from skyline_viz.commands.settings import BankFile, Folder, Preset, Switch, make_detector
+from skyline_viz.config import DetectorConfig
+
+if TYPE_CHECKING:
+    from skyline_viz.detector import Detector
+
+
+@dataclass(frozen=True)
+class Detect:
+    """Find the skylines of photos and write them as CSV, a line for each column."""
+
+    photos: Annotated[
+        tuple[Path, ...],
+        tyro.conf.Positional,
+        tyro.conf.arg(metavar="PHOTO [PHOTO ...]", help_behavior_hint="(required)"),
+    ]
+    """Photos, folders of photos, or data sets."""
+
+    out: Folder = Path("skylines")
+    """Folder for NAME.csv: column, row of its first terrain pixel, and whether visible (1 or 0)."""
+
+    bank: BankFile = None
+    """Filter bank to use; the shipped one unless given."""
+
+    preset: Preset = "default"
+    """Where the settings below start from: the best that is known, or the published method."""
+
+    mask: Switch = False
+    """Also write NAME-mask.png: 0 is sky, 255 terrain."""
+
+    overlay: Switch = False
+    """Also write NAME-overlay.jpg: the photo with its skyline."""
+
+    json: Switch = False
+    """Also write NAME.json: the skyline as JSON."""
+
+    workers: int = 0
+    """Processes to work in; 0 chooses by the number of photos."""
+
+    config: DetectorConfig = field(default_factory=DetectorConfig)
+    """Single settings of the detector."""
+
+    def run(self) -> int:
+        """Detect all photos; return the exit status."""
+        if not self.photos:
+            raise UsageError("which photos? Name at least one photo or folder.")
+        inputs = collect(self.photos)
+        detector = make_detector(self.bank, self.config)
+        output_folder(self.out, (one.item for one in inputs))
+        wide = max(len(one.name) for one in inputs)
+        failures = []
+        outcomes = run(partial(_detect, self, detector), inputs, workers=self.workers)
+        for outcome in outcomes:
+            if isinstance(outcome, Failure):
+                failures.append(outcome)
+            else:
+                print(outcome.line(wide))
+        written = len(inputs) - len(failures)
+        if written > 1:
+            print(f"{counted(written, 'skyline')} in {self.out}")
+        return status_after(failures)
+
+
+@dataclass(frozen=True)
+class _Found:
+    name: str
+    height: int
+    width: int
+    seconds: float
+    files: tuple[Path, ...]
+
+    def line(self, wide: int) -> str:
+        size = f"{self.width}x{self.height}"
+        files = " ".join(map(str, self.files))
+        return f"{self.name:<{wide}}  {size:>9}  {self.seconds:6.3f} s  {files}"
+
+
+def _detect(options: Detect, detector: Detector, photo: Input) -> _Found:
+    from skyline_viz.evaluation import warm_up  # noqa: PLC0415
+
+    pixels = photo.item.photo()
+    warm_up()
+    found = detector.detect(pixels)
+    height, width = pixels.shape[:2]
+    path = options.out / photo.name  # with_suffix would cut names that hold a dot
+    files = [path.with_name(f"{photo.name}.csv")]
+    found.skyline.write_csv(files[0])
+    if options.json:
+        files.append(path.with_name(f"{photo.name}.json"))
+        found.skyline.write_json(files[-1])
+    if options.mask or options.overlay:
+        import numpy as np  # noqa: PLC0415
+
+        from skyline_viz.overlay import draw_overlay  # noqa: PLC0415
+        from skyline_viz.photo import write_photo  # noqa: PLC0415
+
+        if options.mask:
+            files.append(path.with_name(f"{photo.name}-mask.png"))
+            terrain = ~found.skyline.to_mask(height)
+            write_photo(files[-1], terrain.astype(np.uint8) * np.uint8(255))
+        if options.overlay:
+            files.append(path.with_name(f"{photo.name}-overlay.jpg"))
+            write_photo(files[-1], draw_overlay(pixels, found.skyline))
+    return _Found(photo.name, height, width, found.total_seconds, tuple(files))

@@ -1,0 +1,122 @@
+"""``skyline-viz evaluate``: how good a detector is on a data set."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING
+
+import tyro
+
+from skyline_viz.commands.inputs import output_folder, with_truth
+from skyline_viz.commands.messages import UsageError, counted, say, status_after
+from skyline_viz.commands.settings import BankFile, Folder, OptionalFolder, Preset, make_detector
+from skyline_viz.config import DetectorConfig
+
+if TYPE_CHECKING:
+    from skyline_viz.batch import Failure
+    from skyline_viz.datasets import Dataset
+    from skyline_viz.results import PhotoResult
+
+
+@dataclass(frozen=True)
+class Evaluate:
+    """Compare detected skylines with the truth of a data set."""
+
+    dataset: tyro.conf.Positional[Folder]
+    """Folder of a data set, in a published layout or plain."""
+
+    folds: int = 0
+    """Folds of a cross-validation, which trains on all folds but the one it tests; 0 is none."""
+
+    out: OptionalFolder = None
+    """Folder for summary.json, photos.csv and histogram.png; made where it is missing."""
+
+    bank: BankFile = None
+    """Filter bank to use; the shipped one unless given."""
+
+    preset: Preset = "default"
+    """Where the settings below start from: the best that is known, or the published method."""
+
+    seed: int = 0
+    """Seed of the negative samples in a cross-validation."""
+
+    workers: int = 0
+    """Processes to work in; 0 chooses by the number of photos."""
+
+    config: DetectorConfig = field(default_factory=DetectorConfig)
+    """Single settings of the detector."""
+
+    def run(self) -> int:
+        """Evaluate all photos that have a truth; return the exit status."""
+        from skyline_viz.datasets import open_dataset  # noqa: PLC0415
+
+        if self.folds and self.bank:
+            raise UsageError("--folds trains filter banks of its own; leave out --bank.")
+        if self.seed < 0:
+            raise UsageError(f"a seed is 0 or more, not {self.seed}.")
+        dataset = open_dataset(self.dataset)
+        items = with_truth(dataset)
+        if self.out:
+            output_folder(self.out, dataset)
+        from skyline_viz.evaluation import cross_validate, evaluate  # noqa: PLC0415
+
+        if self.folds:
+            how = f"{self.folds}-fold cross-validation"
+            about: dict[str, object] = {"folds": self.folds, "seed": self.seed}
+            results, failures = cross_validate(
+                items, self.folds, config=self.config, seed=self.seed, workers=self.workers
+            )
+        else:
+            detector = make_detector(self.bank, self.config)
+            provenance = detector.bank.provenance
+            how = f"filter bank trained on {provenance.dataset or 'an unnamed data set'}"
+            about = {"bank": asdict(provenance)}
+            if provenance.dataset == dataset.name:
+                say(f"the bank was trained on {dataset.name}, so this is no test; see --folds.")
+            results, failures = evaluate(items, detector, workers=self.workers)
+        title = f"{dataset.name}: {counted(len(results), 'photo')}, {how}"
+        if self.out:
+            self._write(dataset, title, about, results, failures)
+        if results:
+            _print(title, results)
+        if self.out:
+            print(f"summary.json, photos.csv and histogram.png in {self.out}")
+        return status_after(failures)
+
+    def _write(
+        self,
+        dataset: Dataset,
+        title: str,
+        about: dict[str, object],
+        results: list[PhotoResult],
+        failures: list[Failure],
+    ) -> None:
+        from skyline_viz import evaluation_report as report  # noqa: PLC0415
+        from skyline_viz.results import Summary  # noqa: PLC0415
+
+        assert self.out is not None
+        about = {
+            "dataset": dataset.name,
+            "layout": dataset.layout,
+            **about,
+            "config": asdict(self.config),
+            "failed": [asdict(failure) for failure in failures],
+            "problems": list(dataset.problems),
+        }
+        report.write_summary(self.out / "summary.json", Summary.of(results), about)
+        report.write_results(self.out / "photos.csv", results)
+        report.write_histogram(self.out / "histogram.png", results, title)
+
+
+def _print(title: str, results: list[PhotoResult]) -> None:
+    from rich.console import Console  # noqa: PLC0415
+
+    from skyline_viz.evaluation_report import summary_table, worst_table  # noqa: PLC0415
+    from skyline_viz.results import Summary, worst  # noqa: PLC0415
+
+    console = Console(highlight=False)
+    with console.capture() as captured:  # printed here, it would end the program on | head
+        console.print(title, soft_wrap=True)
+        console.print(summary_table(Summary.of(results)))
+        console.print(worst_table(worst(results)))
+    print(captured.get(), end="")

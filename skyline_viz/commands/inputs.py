@@ -1,0 +1,125 @@
+"""From the photos and folders of a command line to what to work on, and where it may be written."""
+
+import os
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+
+from skyline_viz.commands.messages import UsageError, listed, say
+from skyline_viz.datasets import Dataset, DatasetItem, open_dataset
+
+_TRUTH_FOLDERS = ("masks", "ground_truth")
+
+
+@dataclass(frozen=True)
+class Input:
+    """A photo to work on."""
+
+    name: str
+    """What its output files are called, without ending; no other input has the same."""
+
+    item: DatasetItem
+    """The photo, and its truth where there is one."""
+
+
+def collect(paths: Sequence[Path]) -> list[Input]:
+    """Photos of a command line: files as they are, folders as data sets; each file once.
+
+    A file that does not exist is an input, too: it fails when its turn comes.
+
+    Raises:
+        DatasetError: A folder holds no photo, or several data sets.
+    """
+    found: dict[Path, DatasetItem] = {}
+    for path in paths:
+        items: Iterable[DatasetItem] = (
+            open_dataset(path) if path.is_dir() else [DatasetItem(path.stem, path)]
+        )
+        for item in items:
+            found.setdefault(item.photo_path.resolve(), item)
+    items = list(found.values())
+    plain = [_plain_name(item) for item in items]
+    names = output_names(items)
+    if renamed := [name for name, stem in zip(names, plain, strict=True) if name != stem]:
+        say(f"photos of the same name are told apart in the names of outputs: {listed(renamed)}.")
+    return [Input(name, item) for name, item in zip(names, items, strict=True)]
+
+
+def output_names(items: Sequence[DatasetItem]) -> list[str]:
+    """A name for the outputs of each photo: its stem, and more only where stems clash.
+
+    Names that differ in upper and lower case only clash, because on some disks their files do.
+    """
+    names = [_plain_name(item) for item in items]
+    longer: tuple[Callable[[DatasetItem], str], ...] = (
+        lambda item: item.name.replace("/", "-"),
+        lambda item: item.photo_path.name,
+    )
+    for longer_name in longer:
+        for clash in _clashes(names):
+            others = [longer_name(items[index]) for index in clash]
+            if not _clashes(others):
+                for index, name in zip(clash, others, strict=True):
+                    names[index] = name
+    for clash in _clashes(names):
+        for number, index in enumerate(clash[1:], start=2):
+            taken = {name.casefold() for name in names}
+            free = (f"{names[index]}-{more}" for more in count(number))
+            names[index] = next(name for name in free if name.casefold() not in taken)
+    return names
+
+
+def _clashes(names: Sequence[str]) -> list[list[int]]:
+    """Groups of places in a list that hold the same name."""
+    places: dict[str, list[int]] = {}
+    for place, name in enumerate(names):
+        places.setdefault(name.casefold(), []).append(place)
+    return [group for group in places.values() if len(group) > 1]
+
+
+def with_truth(dataset: Dataset) -> list[DatasetItem]:
+    """Photos of a data set that have a truth; says what is wrong with others.
+
+    Raises:
+        UsageError: No photo has a truth.
+    """
+    for problem in dataset.problems:
+        say(f"{dataset.name}: {problem}")
+    usable = [item for item in dataset if item.truth_path]
+    if not usable:
+        raise UsageError(f"{dataset.name} holds no truth for any of its {len(dataset)} photos.")
+    if without := [item.name for item in dataset if not item.truth_path]:
+        say(f"left out, because there is no truth: {listed(without)}.")
+    return usable
+
+
+def output_folder(out: Path, items: Iterable[DatasetItem]) -> Path:
+    """Make a folder for outputs.
+
+    Raises:
+        UsageError: It cannot be made or written to, or what is written there would later be taken
+            for the truth of a photo.
+    """
+    target = out.resolve()
+    for place in {item.photo_path.resolve().parent for item in items}:
+        homes = [place, place.parent] if place.name.lower() == "images" else [place]
+        truths = target.name.lower() in _TRUTH_FOLDERS and target.parent in homes
+        if target == place or truths:
+            raise UsageError(
+                f"files written into {out} would be taken for the truth of the photos in {place}; "
+                f"choose another --out."
+            )
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise UsageError(f"the folder {out} cannot be made: {reason}.") from error
+    if not os.access(out, os.W_OK | os.X_OK):
+        raise UsageError(f"the folder {out} may not be written to.")
+    return out
+
+
+def _plain_name(item: DatasetItem) -> str:
+    """The photo's stem; in GeoPose3K, where every photo has the same, its folder."""
+    return item.name if item.label_map else item.photo_path.stem

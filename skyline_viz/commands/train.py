@@ -1,0 +1,61 @@
+"""``skyline-viz train``: photos with truth in, a filter bank out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+
+from skyline_viz.commands.inputs import output_folder, with_truth
+from skyline_viz.commands.messages import UsageError, counted, status_after
+from skyline_viz.commands.settings import Folder, Preset
+from skyline_viz.config import TrainingConfig
+
+
+@dataclass(frozen=True)
+class Train:
+    """Learn a filter bank from photos with truth."""
+
+    dataset: tyro.conf.Positional[Folder]
+    """Folder of a data set, in a published layout or plain."""
+
+    out: Annotated[Path, tyro.conf.arg(metavar="FILE")]
+    """File for the filter bank, usually .npz; a file that is there is replaced."""
+
+    seed: int = 0
+    """Seed of the negative samples; the same seed and photos give the same bank."""
+
+    preset: Preset = "default"
+    """Where training.detector starts from: the best that is known, or the published method."""
+
+    workers: int = 0
+    """Processes to work in; 0 chooses by the number of photos."""
+
+    training: TrainingConfig = field(default_factory=TrainingConfig)
+    """Single settings of the training."""
+
+    def run(self) -> int:
+        """Train on all photos that have a truth; return the exit status."""
+        from skyline_viz.datasets import open_dataset  # noqa: PLC0415
+
+        dataset = open_dataset(self.dataset)
+        if self.out.is_dir():
+            raise UsageError(f"{self.out} is a folder; name a file for the filter bank.")
+        if self.seed < 0:
+            raise UsageError(f"a seed is 0 or more, not {self.seed}.")
+        items = with_truth(dataset)
+        output_folder(self.out.parent, ())
+        from skyline_viz.evaluation import train_on  # noqa: PLC0415
+
+        bank, failures = train_on(
+            items, self.training, seed=self.seed, dataset=dataset.name, workers=self.workers
+        )
+        bank.save(self.out)
+        print(f"photos used   {bank.provenance.images} of {len(dataset)} in {dataset.name}")
+        print(f"samples       {bank.samples.sum():,}, flipped ones included")
+        print(f"starved bins  {bank.starved.sum()} of {counted(bank.bins.count, 'bin')}")
+        print(f"filters       {bank.size} x {bank.size} pixels")
+        print(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
+        return status_after(failures)

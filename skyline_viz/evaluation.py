@@ -1,0 +1,177 @@
+"""How good a detector is on a data set: a filter bank put to the test, and cross-validation."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache, partial, reduce
+from operator import add
+
+import numpy as np
+
+from skyline_viz.batch import Failure, run
+from skyline_viz.config import DetectorConfig, TrainingConfig
+from skyline_viz.datasets import DatasetItem
+from skyline_viz.detector import Detector
+from skyline_viz.filter_bank import FilterBank
+from skyline_viz.results import PhotoResult
+from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.training import GramMatrices, gather, solve
+
+
+def evaluate(
+    items: Sequence[DatasetItem], detector: Detector, *, workers: int = 1
+) -> tuple[list[PhotoResult], list[Failure]]:
+    """Detect the skylines of photos that have a truth, and compare.
+
+    Args:
+        items: Photos with truth.
+        detector: The detector.
+        workers: Number of processes, see `batch.run`.
+
+    Returns:
+        The results in the order of `items`, and the photos that failed.
+    """
+    return _parted(run(partial(_detect_and_compare, detector), items, workers=workers))
+
+
+def cross_validate(
+    items: Sequence[DatasetItem],
+    folds: int,
+    *,
+    config: DetectorConfig | None = None,
+    training: TrainingConfig | None = None,
+    seed: int = 0,
+    workers: int = 1,
+) -> tuple[list[PhotoResult], list[Failure]]:
+    """Test each photo with a filter bank that was trained on the photos of all other folds.
+
+    Photo ``i`` in the order of names is in fold ``i % folds``. Each photo is looked at once for
+    training: Gram matrices add up, so those of the other folds are summed, whichever they are.
+
+    Args:
+        items: Photos with truth.
+        folds: Number of folds, from 2 to the number of photos.
+        config: How to detect.
+        training: How to train; unless given, with the edges of `config`.
+        seed: Seed of the negative samples.
+        workers: Number of processes, see `batch.run`.
+
+    Returns:
+        The results by name, and the photos that failed.
+
+    Raises:
+        ValueError: There are too few photos for so many folds.
+    """
+    items = sorted(items, key=lambda item: item.name)
+    if not 2 <= folds <= len(items):
+        raise ValueError(f"folds is a number from 2 to the {len(items)} photos, not {folds}")
+    config = config or DetectorConfig()
+    training = training or TrainingConfig(detector=config)
+    sums = [GramMatrices.empty(training)] * folds
+    usable: list[tuple[int, DatasetItem]] = []
+    failures: list[Failure] = []
+    gathered = run(partial(gather_item, training, seed), items, workers=workers, title="training")
+    for index, outcome in enumerate(gathered):
+        if isinstance(outcome, Failure):
+            failures.append(outcome)
+        else:
+            sums[index % folds] += outcome
+            usable.append((index % folds, items[index]))
+    tests = []
+    for fold in range(folds):
+        others = reduce(add, (gram for other, gram in enumerate(sums) if other != fold))
+        detector = Detector(solve(others, seed, training), config)
+        tests += [_Test(item, detector) for of, item in usable if of == fold]
+    tests.sort(key=lambda test: test.name)
+    results, more = _parted(run(_test, tests, workers=workers))
+    return results, failures + more
+
+
+def train_on(
+    items: Sequence[DatasetItem],
+    training: TrainingConfig,
+    *,
+    seed: int = 0,
+    dataset: str = "",
+    workers: int = 1,
+) -> tuple[FilterBank, list[Failure]]:
+    """Learn a filter bank from photos that have a truth, in several processes.
+
+    Returns:
+        The bank, the very one that `training.train` gives, and the photos that failed.
+
+    Raises:
+        ValueError: Every single photo failed, or there is none.
+    """
+    total = GramMatrices.empty(training)
+    failures = []
+    for outcome in run(partial(gather_item, training, seed), items, workers=workers):
+        if isinstance(outcome, Failure):
+            failures.append(outcome)
+        else:
+            total += outcome
+    if total.images == 0:
+        reason = f", and the first one failed: {failures[0]}" if failures else "."
+        raise ValueError(f"training needs at least one photo with a true skyline{reason}")
+    return solve(total, seed, training, dataset), failures
+
+
+def gather_item(training: TrainingConfig, seed: int, item: DatasetItem) -> GramMatrices:
+    """Gram matrices of one photo of a data set.
+
+    Raises:
+        PhotoError: The photo cannot be read.
+        SkylineError: It has no truth, or one that does not fit.
+    """
+    return gather(item.photo(), _truth(item), seed, training)
+
+
+@cache
+def warm_up() -> None:
+    """Load the compiled loops of this process, lest the first photo's time include that."""
+    photo = np.full((32, 32, 3), 200, np.uint8)
+    photo[16:] = 50
+    Detector().detect(photo)
+
+
+@dataclass(frozen=True)
+class _Test:
+    """A photo, and the detector of its fold."""
+
+    item: DatasetItem
+    detector: Detector
+
+    @property
+    def name(self) -> str:
+        return self.item.name
+
+
+def _test(test: _Test) -> PhotoResult:
+    return _detect_and_compare(test.detector, test.item)
+
+
+def _detect_and_compare(detector: Detector, item: DatasetItem) -> PhotoResult:
+    truth = _truth(item)  # first: without it there is no need to detect
+    photo = item.photo()
+    warm_up()
+    found = detector.detect(photo)
+    return PhotoResult.of(item.name, found.skyline, truth, len(photo), found.total_seconds)
+
+
+def _truth(item: DatasetItem) -> Skyline:
+    truth = item.truth()
+    if truth is None:
+        raise SkylineError("there is no truth")
+    return truth
+
+
+def _parted(
+    outcomes: Iterable[PhotoResult | Failure],
+) -> tuple[list[PhotoResult], list[Failure]]:
+    results: list[PhotoResult] = []
+    failures: list[Failure] = []
+    for outcome in outcomes:
+        if isinstance(outcome, Failure):
+            failures.append(outcome)
+        else:
+            results.append(outcome)
+    return results, failures

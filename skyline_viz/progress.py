@@ -1,0 +1,65 @@
+"""A progress bar for people who wait, and silence for programs."""
+
+import sys
+from time import perf_counter
+from typing import TYPE_CHECKING, Self
+
+if TYPE_CHECKING:
+    from rich.progress import Progress, TaskID
+
+PROGRESS_AFTER = 1.0
+"""Seconds of work after which a progress bar appears."""
+
+
+class ProgressBar:
+    """A bar on stderr, once the work has taken a while; nothing unless stderr is a terminal.
+
+    Lines that are printed meanwhile appear above it.
+    """
+
+    def __init__(self, total: int, title: str) -> None:
+        self._total = total
+        self._title = title
+        self._done = 0
+        self._began = perf_counter()
+        self._shown: tuple[Progress, TaskID] | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._shown:
+            self._shown[0].stop()
+
+    def advance(self) -> None:
+        """Count one more photo."""
+        self._done += 1
+        if self._shown is None and self._done < self._total and sys.stderr.isatty():
+            if perf_counter() - self._began < PROGRESS_AFTER:
+                return
+            self._shown = self._show()
+        if self._shown:
+            progress, task = self._shown
+            progress.update(task, completed=self._done)
+
+    def _show(self) -> "tuple[Progress, TaskID]":
+        from rich.console import Console  # noqa: PLC0415  # a single photo never needs it
+        from rich.progress import (  # noqa: PLC0415
+            BarColumn,
+            MofNCompleteColumn,
+            Progress,
+            TextColumn,
+            TimeRemainingColumn,
+        )
+
+        progress = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeRemainingColumn(),
+            console=Console(stderr=True),
+            transient=True,
+            redirect_stdout=sys.stdout.isatty(),  # else lines meant for a pipe would end up here
+        )
+        progress.start()
+        return progress, progress.add_task(self._title, total=self._total)

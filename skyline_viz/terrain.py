@@ -1,0 +1,105 @@
+"""Sky or terrain: what the photo looks like block by block, edges and learned filters aside.
+
+Ours, not the paper's. The underside of a cloud can be as strong an edge as a ridge, but what lies
+below it still looks like sky. A linear model of a dozen features of 8x8 pixel blocks says so
+roughly, in a hundredth of a detection's time; summed down the columns it tells, for every pixel,
+how well "all sky above here, all terrain below" fits the photo.
+"""
+
+import cv2
+import numpy as np
+
+from skyline_viz.arrays import F32, F64, U8, Bool
+from skyline_viz.skyline import Skyline
+
+BLOCK = 8
+"""Side of a block, in pixels."""
+
+FEATURES = 12
+"""Number of features of a block."""
+
+_TOP_SHARE = 12  # the top twelfth of a photo stands for its sky
+
+
+def block_features(photo: U8, edges: Bool) -> F32:
+    """Features of every block, ``(h, w, FEATURES)``.
+
+    How dense edges are here and in two neighbourhoods; brightness, colour and saturation; and how
+    the block differs from the top of the photo in colour and in brightness.
+
+    Args:
+        photo: ``(H, W, 3)`` uint8 RGB.
+        edges: ``(H, W)`` edge map.
+    """
+    height, width = edges.shape
+    size = (max(1, round(width / BLOCK)), max(1, round(height / BLOCK)))
+    colour = cv2.resize(photo, size, interpolation=cv2.INTER_AREA).astype(np.float32) / 255
+    as_bytes = edges.view(np.uint8) * np.uint8(255)
+    density = cv2.resize(as_bytes, size, interpolation=cv2.INTER_AREA).astype(np.float32) / 255
+    red, green, blue = np.moveaxis(colour, 2, 0)
+    brightness = colour.mean(axis=2)
+    top = colour[: max(1, size[1] // _TOP_SHARE)].reshape(-1, 3).mean(axis=0)
+    return np.stack(
+        [
+            np.ones_like(brightness),
+            np.sqrt(density),
+            np.sqrt(cv2.blur(density, (5, 5))),
+            np.sqrt(cv2.blur(density, (15, 15))),
+            brightness,
+            brightness * brightness,
+            blue - red,
+            np.abs(blue - red),
+            green - (red + blue) / 2,
+            colour.max(axis=2) - colour.min(axis=2),
+            np.sqrt(((colour - top) ** 2).sum(axis=2)),
+            brightness - top.mean(),
+        ],
+        axis=-1,
+        dtype=np.float32,
+    )
+
+
+def terrain_above(photo: U8, edges: Bool, weights: F32) -> F32:
+    """How much terrain, rather than sky, seems to lie above each pixel.
+
+    Args:
+        photo: ``(H, W, 3)`` uint8 RGB.
+        edges: ``(H, W)`` edge map.
+        weights: ``(FEATURES,)`` of the linear model; -1 means sky, 1 terrain.
+
+    Returns:
+        ``(H, W)`` float32, a transposed view: the sum over the rows above, in heights of the
+        photo; -0.3 = three tenths of the height above this pixel are surely sky.
+    """
+    height, width = edges.shape
+    looks = np.clip(block_features(photo, edges) @ weights, -1, 1).T  # (w, h), down the columns
+    above = np.cumsum(looks, axis=1, dtype=np.float32) - looks / 2
+    spread: F32 = cv2.resize(np.ascontiguousarray(above), (height, width))
+    spread /= looks.shape[1]
+    return spread.T
+
+
+def terrain_sums(photo: U8, edges: Bool, truth: Skyline) -> F64:
+    """Gram matrix ``(FEATURES + 1, FEATURES + 1)`` of (features, target) over a photo's blocks.
+
+    Target 1 for terrain, -1 for sky, in between on the line; every block counts a second time
+    without its colour, so that the model holds for grey photos.
+    """
+    grey = np.repeat(cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY)[:, :, None], 3, axis=2)
+    sky = (truth.to_mask(edges.shape[0]) * np.uint8(255)).astype(np.uint8)
+    sums = np.zeros((FEATURES + 1, FEATURES + 1))
+    for version in (photo, grey):
+        features = block_features(version, edges)
+        size = features.shape[1::-1]
+        share = cv2.resize(sky, size, interpolation=cv2.INTER_AREA).astype(np.float64) / 255
+        columns = np.linspace(0, truth.width - 1, size[0]).astype(np.intp)
+        samples = np.dstack([features, 1 - 2 * share])[:, truth.visible[columns]]
+        samples = samples.reshape(-1, FEATURES + 1)
+        sums += samples.T @ samples
+    return sums
+
+
+def solve_terrain(sums: F64) -> F32:
+    """Weights ``(FEATURES,)`` of the linear model by least squares, lightly regularised."""
+    system = sums[:-1, :-1] + np.eye(FEATURES)
+    return np.linalg.solve(system, sums[:-1, -1]).astype(np.float32)

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Make the virtual environment .venv and install what the project needs, system packages included.
+#   tools/setup.sh run    what running needs: the package and its dependencies
+#   tools/setup.sh dev    the locked development set as well
+set -euo pipefail
+cd "$(dirname "$0")/.."
+kind=${1:-run}
+
+say() { printf 'skyline-viz setup: %s\n' "$*" >&2; }
+
+# a Python from 3.11 to 3.13 that can make virtual environments
+usable() { "$1" -c 'import sys, venv, ensurepip; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 13))' 2>/dev/null; }
+
+find_python() {
+    local name
+    for name in "${PYTHON:-python3}" python3.13 python3.12 python3.11 /usr/bin/python3; do
+        if command -v "$name" >/dev/null 2>&1 && usable "$name"; then
+            command -v "$name"
+            return 0
+        fi
+    done
+    return 1
+}
+
+apt_install() {
+    local as_root=()
+    command -v apt-get >/dev/null 2>&1 || return 1
+    if [ "$(id -u)" != 0 ]; then
+        command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null || return 1
+        as_root=(sudo -n)
+    fi
+    say "installing $* with apt-get"
+    "${as_root[@]}" apt-get update -q >/dev/null && DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -qy "$@" >/dev/null
+}
+
+if [ ! -x .venv/bin/python ] || ! usable .venv/bin/python; then
+    if ! python=$(find_python); then
+        apt_install python3 python3-venv || true
+        python=$(find_python) || {
+            say "Python 3.11, 3.12 or 3.13 with its venv module is missing and could not be installed."
+            say "Install it (on Debian and Ubuntu: apt-get install python3 python3-venv), then run this again,"
+            say "or name one: PYTHON=/path/to/python3.12 make ..."
+            exit 1
+        }
+    fi
+    say "making .venv with $("$python" --version)"
+    rm -rf .venv
+    "$python" -m venv .venv
+fi
+
+pip=(.venv/bin/python -m pip --disable-pip-version-check --quiet)
+if [ "$kind" = dev ]; then
+    say "installing the locked development set"
+    "${pip[@]}" install -r requirements-dev.txt
+    "${pip[@]}" install --no-deps --no-build-isolation -e .
+else
+    say "installing skyline-viz and what it needs"
+    "${pip[@]}" install -e .
+fi
+touch ".venv/.installed-$kind"
