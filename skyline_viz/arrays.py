@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 U8: TypeAlias = npt.NDArray[np.uint8]
 Bool: TypeAlias = npt.NDArray[np.bool_]
+I16: TypeAlias = npt.NDArray[np.int16]
 Int: TypeAlias = npt.NDArray[np.int32]
 F32: TypeAlias = npt.NDArray[np.float32]
 F64: TypeAlias = npt.NDArray[np.float64]

@@ -40,15 +40,14 @@ class Bins:
     """Strength up to which a pixel is in the first bin, in grey levels a pixel."""
 
     strength_range: float = 180.0
-    """Strength above the offset from which on a pixel is in the last bin, in grey levels a pixel."""
+    """How far above the offset the last bin begins, in grey levels a pixel."""
 
     def __post_init__(self) -> None:
         """Refuse values that make no bins."""
         for name in ("coherences", "strengths", "orientations"):
-            if not 1 <= getattr(self, name) <= 1000:
-                raise ValueError(
-                    f"{name} is a number of bins from 1 to 1000, not {getattr(self, name)}"
-                )
+            value = getattr(self, name)
+            if not isinstance(value, int) or not 1 <= value <= 1000:
+                raise ValueError(f"{name} is a number of bins from 1 to 1000, not {value!r}")
         if not 0 < self.coherence_top <= 1:
             raise ValueError(f"coherence_top lies in (0, 1], not at {self.coherence_top}")
         if not (np.isfinite(self.strength_offset) and 0 < self.strength_range < np.inf):
@@ -74,7 +73,7 @@ class Bins:
         return (coherence * self.strengths + strength) * self.orientations + orientation
 
     def mirrored(self) -> npt.NDArray[np.intp]:
-        """Bin ``(count,)`` that each bin's pixels fall into when the photo is flipped left-right."""
+        """Bin ``(count,)`` into which each bin's pixels fall in the left-right flipped photo."""
         index = np.arange(self.count).reshape(self.shape)
         return index[:, :, -np.arange(self.orientations) % self.orientations].ravel()
 

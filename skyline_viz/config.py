@@ -30,7 +30,7 @@ class DetectorConfig:
     """Whether the thresholds are lowered for soft and hazy photos, see `fitted_thresholds`."""
 
     frame: int = 4
-    """Rows at the top and at the bottom in which edges are taken for a picture frame and dropped."""
+    """Rows at the top and at the bottom whose edges are taken for a picture frame, and dropped."""
 
     v: float = 0.5
     """Weight of the score against the gradient strength, in [0, 1] (the paper's ``v``)."""
@@ -54,9 +54,6 @@ class DetectorConfig:
     link_weight: float = 0.1
     """Link cost of one pixel of row change."""
 
-    working_megapixels: float = 1.5
-    """Size, in million pixels, above which a photo is searched reduced and then refined."""
-
     def __post_init__(self) -> None:
         """Refuse values outside their range with a sentence that names the field."""
         for name, low, high in _RANGES:
@@ -77,7 +74,7 @@ class DetectorConfig:
 
     @classmethod
     def paper(cls) -> "DetectorConfig":
-        """Return the published method: grey edges, fixed thresholds, no clear-sky term, one size.
+        """Return the published method: grey edges, fixed thresholds, no clear-sky term.
 
         The paper's infinite cost of non-edge pixels is a finite one here, and ``delta`` is 1 with
         free links; the paper leaves both open.
@@ -92,7 +89,6 @@ class DetectorConfig:
             terrain_weight=0.0,
             delta=1,
             link_weight=0.0,
-            working_megapixels=1e6,
         )
 
 
@@ -107,7 +103,6 @@ _RANGES: tuple[tuple[str, float, float], ...] = (
     ("terrain_weight", 0, 1e3),
     ("delta", 0, 1e5),
     ("link_weight", 0, 1e6),
-    ("working_megapixels", 0.01, 1e6),
 )
 
 
@@ -128,7 +123,7 @@ class TrainingConfig:
     """Weight of ``Q``, which draws neighbouring taps together; in squared grey levels."""
 
     detector: DetectorConfig = field(default_factory=DetectorConfig)
-    """Whose edges and working size are used, so that training sees what detection will see."""
+    """Whose edges are used, so that training sees what detection will see."""
 
     def __post_init__(self) -> None:
         """Refuse values outside their range with a sentence that names the field."""

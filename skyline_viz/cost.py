@@ -13,7 +13,7 @@ CLEAR_SKY_COLUMNS = 9
 
 
 def normalised(strength: F32, percentile: float) -> F32:
-    """Gradient strength ``(n,)`` in [0, 1], where 1 is the given percentile of this photo's edges."""
+    """Gradient strength ``(n,)`` in [0, 1]; 1 is the given percentile of this photo's edges."""
     if len(strength) == 0:
         return strength
     top = np.percentile(strength, percentile)
@@ -21,7 +21,9 @@ def normalised(strength: F32, percentile: float) -> F32:
 
 
 def edge_cost(scores: F32, strength: F32, v: float) -> F32:
-    """Nodal cost of edge pixels, ``v (1 - score) + (1 - v) (1 - strength)``, the paper's last equation.
+    """Nodal cost of edge pixels, the last equation of the paper.
+
+    ``v (1 - score) + (1 - v) (1 - strength)``
 
     Args:
         scores: ``(n,)`` in [0, 1].
@@ -55,6 +57,49 @@ def nodal_cost(
     if clear_sky > 0:
         _add_clear_sky(cost, np.ascontiguousarray(edges.T).view(np.uint8), np.float32(clear_sky))
     return cost.T
+
+
+def add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
+    """Add a weighted map of blocks to the nodal cost, in place, interpolated between centres.
+
+    Args:
+        cost: ``(H, W)`` as `nodal_cost` gives it.
+        blocks: ``(h, w)`` one value a block.
+        weight: Its weight.
+        side: Side of a block, in pixels.
+    """
+    _add_blocks(cost.T, np.ascontiguousarray(blocks.T), np.float32(weight), side)
+
+
+@numba.njit(cache=True, nogil=True)
+def _add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
+    """`add_blocks` with both arrays column by column, ``(W, H)`` and ``(w, h)``."""
+    width, height = cost.shape
+    left, right, sideways = _between_centres(width, blocks.shape[0], side)
+    above, below, downwards = _between_centres(height, blocks.shape[1], side)
+    line = np.empty(blocks.shape[1], np.float32)
+    for column in range(width):
+        here = blocks[left[column]]
+        there = blocks[right[column]]
+        for block in range(line.size):
+            line[block] = weight * (here[block] + sideways[column] * (there[block] - here[block]))
+        for row in range(height):
+            over = line[above[row]]
+            cost[column, row] += over + downwards[row] * (line[below[row]] - over)
+
+
+@numba.njit(cache=True, nogil=True)
+def _between_centres(length: int, blocks: int, side: int) -> tuple[Int, Int, F32]:
+    """For each pixel of an axis the blocks before and after it, and how far it is on the way."""
+    before = np.empty(length, np.int32)
+    after = np.empty(length, np.int32)
+    share = np.empty(length, np.float32)
+    for pixel in range(length):
+        place = min(max((pixel + 0.5) / side - 0.5, 0.0), blocks - 1.0)
+        before[pixel] = int(place)
+        after[pixel] = min(before[pixel] + 1, blocks - 1)
+        share[pixel] = place - before[pixel]
+    return before, after, share
 
 
 @numba.njit(cache=True, nogil=True)

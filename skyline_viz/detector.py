@@ -9,15 +9,14 @@ import numpy as np
 
 from skyline_viz.arrays import F32, U8, Bool, Int, check_photo
 from skyline_viz.config import DetectorConfig
-from skyline_viz.cost import edge_cost, nodal_cost, normalised
-from skyline_viz.edges import edge_pixels, find_edges, fitted_thresholds, to_grey
+from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
+from skyline_viz.edges import edge_pixels, find_edges, to_grey
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import shortest_path
-from skyline_viz.scale import BAND_ROWS, band_distance, reduced, reduction, rescaled
 from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
 from skyline_viz.tensor import tensor_at
-from skyline_viz.terrain import terrain_above
+from skyline_viz.terrain import BLOCK, terrain_above
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +30,7 @@ class Detection:
     """The detected line."""
 
     edges: Bool
-    """``(H, W)`` edge map; within the band only, where the photo was refined."""
+    """``(H, W)`` edge map."""
 
     edge_rows: Int
     """``(n,)`` int32 row of each edge pixel."""
@@ -72,14 +71,10 @@ class Detection:
     bank: FilterBank
     """The filter bank that was used."""
 
-    coarse: "Detection | None" = None
-    """The search in the reduced photo, where this photo is larger than the working size."""
-
     @property
     def total_seconds(self) -> float:
-        """Seconds of all stages, those of the coarse search included."""
-        coarse = self.coarse.total_seconds if self.coarse else 0.0
-        return sum(self.seconds.values()) + coarse
+        """Seconds of all stages."""
+        return sum(self.seconds.values())
 
 
 @dataclass(frozen=True)
@@ -112,29 +107,10 @@ class Detector:
         """
         check_photo(photo)
         photo = np.ascontiguousarray(photo)
-        height, width = photo.shape[:2]
-        factor = reduction(height, width, self.config.working_megapixels)
-        if factor == 1.0:
-            return self._stages(photo, None, 1.0)
-        clock = perf_counter()
-        smaller = reduced(photo, factor)
-        clock = perf_counter() - clock
-        coarse = self._stages(smaller, None, 1.0)
-        coarse.seconds["reduce"] = clock
-        return self._stages(photo, coarse, factor)
-
-    def _stages(self, photo: U8, coarse: Detection | None, factor: float) -> Detection:
-        """All stages at one size; near the line of a coarse detection, where there is one."""
         config, bank = self.config, self.bank
         seconds: dict[str, float] = {}
-        height, width = photo.shape[:2]
-        distance = None
         with _timed(seconds, "edges"):
             edges, thresholds = candidate_edges(photo, config)
-            if coarse is not None:
-                around = rescaled(coarse.skyline, coarse.photo.shape[0], height, width)
-                distance = band_distance(around.rows, height, BAND_ROWS * factor)
-                edges &= distance <= 1
             rows, columns = edge_pixels(edges)
         with _timed(seconds, "tensor"):
             tensor = tensor_at(photo, rows, columns)
@@ -148,11 +124,9 @@ class Detector:
             cost = nodal_cost(
                 edges, rows, columns, at_edges, config.non_edge_cost, config.clear_sky
             )
-            if distance is not None:
-                cost += distance
-            elif config.terrain_weight:
+            if config.terrain_weight and len(rows):  # without edges, every line is a guess
                 above = terrain_above(photo, edges, bank.terrain)
-                cost += np.float32(config.terrain_weight) * above
+                add_blocks(cost, above, config.terrain_weight, BLOCK)
         with _timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
         return Detection(
@@ -172,20 +146,22 @@ class Detector:
             seconds=seconds,
             config=config,
             bank=bank,
-            coarse=coarse,
         )
 
 
 def candidate_edges(photo: U8, config: DetectorConfig) -> tuple[Bool, tuple[float, float]]:
     """Edge map ``(H, W)`` of a photo without its frame, and the Canny thresholds that made it."""
-    low, high = config.low_threshold, config.high_threshold
-    if config.fit_thresholds:
-        low, high = fitted_thresholds(photo, low, high)
-    edges = find_edges(photo, config.edge_source, low, high)
+    edges, thresholds = find_edges(
+        photo,
+        config.edge_source,
+        config.low_threshold,
+        config.high_threshold,
+        fit=config.fit_thresholds,
+    )
     if config.frame:
         edges[: config.frame] = False
         edges[-config.frame :] = False
-    return edges, (low, high)
+    return edges, thresholds
 
 
 @contextmanager

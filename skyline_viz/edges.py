@@ -4,7 +4,7 @@ import cv2
 import numba
 import numpy as np
 
-from skyline_viz.arrays import U8, Bool, Int
+from skyline_viz.arrays import I16, U8, Bool, Int
 from skyline_viz.config import EdgeSource
 
 STRONG_PERCENTILE = 95
@@ -22,7 +22,7 @@ NOISE_MULTIPLE = 4.0
 LOWEST_FACTOR = 0.3
 """The thresholds are lowered to this share at the most."""
 
-GRADIENT_STEP = 4
+GRADIENT_STEP = 6
 """Gradients are sampled this many pixels apart."""
 
 
@@ -32,7 +32,9 @@ def to_grey(photo: U8) -> U8:
     return grey
 
 
-def find_edges(photo: U8, source: EdgeSource, low: float, high: float) -> Bool:
+def find_edges(
+    photo: U8, source: EdgeSource, low: float, high: float, *, fit: bool = False
+) -> tuple[Bool, tuple[float, float]]:
     """Canny edges of an RGB photo.
 
     In colour, the gradient of each pixel is that of the channel in which it is strongest: a blue
@@ -43,18 +45,22 @@ def find_edges(photo: U8, source: EdgeSource, low: float, high: float) -> Bool:
         source: Whether to look at the grey or the colour photo.
         low: Lower hysteresis threshold, on the 3x3 Sobel gradient of 8-bit values (L1 norm).
         high: Upper hysteresis threshold, same unit.
+        fit: Lower the thresholds for a soft or hazy photo, see `fitted_thresholds`.
 
     Returns:
-        ``(H, W)`` bool, True on edge pixels.
+        ``(H, W)`` bool, True on edge pixels; and the thresholds that were used.
     """
-    seen = to_grey(photo) if source == "grey" else photo
-    # where two rows have the same gradient Canny takes the upper one, which on a sharp skyline is
-    # sky; upside down it takes the first row of terrain
-    edges: U8 = cv2.flip(cv2.Canny(cv2.flip(seen, 0), low, high), 0)
-    return edges > 0
+    padded = cv2.copyMakeBorder(
+        to_grey(photo) if source == "grey" else photo, 1, 1, 1, 1, cv2.BORDER_REPLICATE
+    )
+    across, down = _upside_down_sobel(tuple(cv2.split(padded)))
+    if fit:
+        low, high = fitted_thresholds(across, down, low, high)
+    upside_down: U8 = cv2.Canny(across, down, low, high)
+    return upside_down[::-1] > 0, (low, high)
 
 
-def fitted_thresholds(photo: U8, low: float, high: float) -> tuple[float, float]:
+def fitted_thresholds(across: I16, down: I16, low: float, high: float) -> tuple[float, float]:
     """Canny thresholds lowered for a soft or hazy photo, as far as its noise allows.
 
     Fixed thresholds miss the skyline of a photo that is a little out of focus. The strong
@@ -62,13 +68,16 @@ def fitted_thresholds(photo: U8, low: float, high: float) -> tuple[float, float]
     begins. The thresholds keep their ratio and are never raised.
 
     Args:
-        photo: ``(H, W, 3)`` uint8 RGB.
+        across: ``(H, W)`` Sobel gradient along the rows.
+        down: ``(H, W)`` Sobel gradient along the columns.
         low: Lower threshold for a crisp photo.
         high: Upper threshold for a crisp photo.
     """
-    weak, strong = np.percentile(_sampled_gradients(photo), (NOISE_PERCENTILE, STRONG_PERCENTILE))
-    wanted = max(STRONG_SHARE * strong, NOISE_MULTIPLE * weak) / high
-    factor = min(max(wanted, LOWEST_FACTOR), 1.0)
+    every = (slice(None, None, GRADIENT_STEP), slice(None, None, GRADIENT_STEP))
+    gradients = np.abs(across[every].astype(np.int32)) + np.abs(down[every])
+    weak, strong = np.percentile(gradients, (NOISE_PERCENTILE, STRONG_PERCENTILE))
+    wanted = max(STRONG_SHARE * strong, NOISE_MULTIPLE * weak) / (high or 1.0)
+    factor = float(min(max(wanted, LOWEST_FACTOR), 1.0))
     return low * factor, high * factor
 
 
@@ -84,26 +93,40 @@ def edge_pixels(edges: Bool) -> tuple[Int, Int]:
 
 
 @numba.njit(cache=True, nogil=True)
-def _sampled_gradients(photo: U8) -> Int:
-    """Gradient, as Canny measures it, of every fourth pixel of every fourth row."""
-    height, width, channels = photo.shape
-    step = GRADIENT_STEP
-    gradients = np.zeros(((height - 3) // step + 1, (width - 3) // step + 1), np.int32)
-    for row in range(1, height - 1, step):
-        for column in range(1, width - 1, step):
-            strongest = 0
-            for channel in range(channels):
-                across = 0
-                down = 0
-                for offset, weight in ((-1, 1), (0, 2), (1, 1)):
-                    across += weight * (
-                        np.int32(photo[row + offset, column + 1, channel])
-                        - np.int32(photo[row + offset, column - 1, channel])
-                    )
-                    down += weight * (
-                        np.int32(photo[row + 1, column + offset, channel])
-                        - np.int32(photo[row - 1, column + offset, channel])
-                    )
-                strongest = max(strongest, abs(across) + abs(down))
-            gradients[row // step, column // step] = strongest
-    return gradients
+def _upside_down_sobel(channels: tuple[U8, ...]) -> tuple[I16, I16]:
+    """3x3 Sobel gradients of the channel in which they are strongest, as Canny takes them.
+
+    Of the photo turned upside down: where two rows have the same gradient Canny takes the upper
+    one, which on a sharp skyline is sky; this way it takes the first row of terrain.
+
+    Args:
+        channels: One or three, ``(H + 2, W + 2)``.
+
+    Returns:
+        Gradients along the rows and along the columns, ``(H, W)`` int16, last row first.
+    """
+    height, width = channels[0].shape[0] - 2, channels[0].shape[1] - 2
+    across = np.empty((height, width), np.int16)
+    down = np.empty((height, width), np.int16)
+    for row in range(height):
+        for column in range(width):
+            best = np.int32(-1)
+            best_x = np.int32(0)
+            best_y = np.int32(0)
+            for plane in channels:
+                north_west = np.int32(plane[row, column])
+                north_east = np.int32(plane[row, column + 2])
+                south_west = np.int32(plane[row + 2, column])
+                south_east = np.int32(plane[row + 2, column + 2])
+                east = np.int32(plane[row + 1, column + 2]) - np.int32(plane[row + 1, column])
+                south = np.int32(plane[row + 2, column + 1]) - np.int32(plane[row, column + 1])
+                x = north_east - north_west + south_east - south_west + 2 * east
+                y = south_west - north_west + south_east - north_east + 2 * south
+                strength = abs(x) + abs(y)
+                stronger = strength > best
+                best = strength if stronger else best
+                best_x = x if stronger else best_x
+                best_y = y if stronger else best_y
+            across[height - 1 - row, column] = best_x
+            down[height - 1 - row, column] = -best_y
+    return across, down

@@ -122,7 +122,8 @@ def gather_item(training: TrainingConfig, seed: int, item: DatasetItem) -> GramM
         PhotoError: The photo cannot be read.
         SkylineError: It has no truth, or one that does not fit.
     """
-    return gather(item.photo(), _truth(item), seed, training)
+    truth = _truth(item)  # first: without it there is no need to read the photo
+    return gather(item.photo(), truth, seed, training)
 
 
 @cache
@@ -150,7 +151,7 @@ def _test(test: _Test) -> PhotoResult:
 
 
 def _detect_and_compare(detector: Detector, item: DatasetItem) -> PhotoResult:
-    truth = _truth(item)  # first: without it there is no need to detect
+    truth = _truth(item)
     photo = item.photo()
     warm_up()
     found = detector.detect(photo)

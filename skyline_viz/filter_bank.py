@@ -2,7 +2,9 @@
 
 import json
 import os
+import struct
 import zipfile
+import zlib
 from dataclasses import asdict, dataclass, field
 from importlib import resources
 
@@ -19,6 +21,11 @@ FORMAT = "skyline-viz filter bank"
 VERSION = 1
 STARVED_SAMPLES = 50
 """A bin is starved when fewer training samples than this fell into it."""
+
+_DAMAGE = (
+    *(OSError, ValueError, LookupError, TypeError, EOFError, RuntimeError, ArithmeticError),
+    *(MemoryError, zipfile.BadZipFile, zlib.error, struct.error),
+)  # what numpy, zipfile and json raise on damaged files
 
 
 class FilterBankError(ValueError):
@@ -135,19 +142,20 @@ class FilterBank:
                         f"{path} is a filter bank of version {header.get('version')}; "
                         f"this program reads version {VERSION}."
                     )
-                return cls(
-                    filters=archive["filters"],
-                    samples=archive["samples"],
-                    terrain=archive["terrain"],
-                    bins=Bins(**header["bins"]),
-                    provenance=Provenance(**header["provenance"]),
-                )
+                filters, samples = archive["filters"], archive["samples"]
+                terrain = archive["terrain"]
+                bins = Bins(**header["bins"])
+                provenance = Provenance(**header["provenance"])
         except FileNotFoundError:
             raise FilterBankError(f"{path} does not exist.") from None
         except FilterBankError:
             raise
-        except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+        except _DAMAGE as error:
             raise FilterBankError(f"{path} is damaged or not a filter bank: {error}.") from error
+        try:
+            return cls(filters, samples, terrain, bins, provenance)
+        except (ValueError, TypeError) as error:
+            raise FilterBankError(f"{path} holds no valid filter bank: {error}.") from error
 
     @classmethod
     def default(cls) -> "FilterBank":

@@ -96,7 +96,9 @@ def margins(min_marginals: F64, apart: int = 5) -> F64:
     best = through.argmin(axis=1)
     lowest = through[np.arange(len(best)), best]
     near = np.abs(np.arange(through.shape[1])[None, :] - best[:, None]) <= apart
-    return np.maximum(np.where(near, np.inf, through).min(axis=1) - lowest, 0.0)
+    second: F64 = np.where(near, np.inf, through).min(axis=1)
+    margin: F64 = np.maximum(second - lowest, 0.0)
+    return margin
 
 
 def _problem(

@@ -21,22 +21,35 @@ def score_at(grey: U8, rows: Int, columns: Int, bins: Int, filters: F32) -> F32:
         ``(n,)`` in [0, 1]: the filter's output, clipped to [0, 255], over 255. Patches reach over
         the border into repeated border pixels.
     """
-    reach = filters.shape[1] // 2
-    padded = cv2.copyMakeBorder(grey, reach, reach, reach, reach, cv2.BORDER_REPLICATE)
-    return _apply(padded, rows, columns, bins, filters)
+    size = filters.shape[1]
+    reach = size // 2
+    lanes = -(-size // 8) * 8
+    padded = cv2.copyMakeBorder(grey, reach, reach, reach, lanes - reach, cv2.BORDER_REPLICATE)
+    taps = np.zeros((*filters.shape[:2], lanes), np.float32)
+    taps[:, :, :size] = filters
+    scores: F32 = _apply(padded.astype(np.float32), rows, columns, bins, taps, (0,) * lanes)
+    return scores
 
 
 @numba.njit(cache=True, nogil=True, fastmath=True)
-def _apply(padded: U8, rows: Int, columns: Int, bins: Int, filters: F32) -> F32:
-    size = filters.shape[1]
+def _apply(
+    padded: F32, rows: Int, columns: Int, bins: Int, taps: F32, lanes: tuple[int, ...]
+) -> F32:
+    """Filter outputs; rows of taps are filled up with zeros to whole vectors of eight.
+
+    The compiler knows the length of the tuple `lanes`, not that of an array, and so unrolls the
+    inner loop.
+    """
     scores = np.empty(rows.size, np.float32)
+    sums = np.empty(len(lanes), np.float32)
     for pixel in range(rows.size):
         top = rows[pixel]
         left = columns[pixel]
-        taps = filters[bins[pixel]]
-        total = np.float32(0)
-        for down in range(size):
-            for right in range(size):
-                total += taps[down, right] * np.float32(padded[top + down, left + right])
-        scores[pixel] = min(max(total * np.float32(1 / 255), np.float32(0)), np.float32(1))
+        own = bins[pixel]
+        sums[:] = 0
+        for down in range(taps.shape[1]):
+            for lane in range(len(lanes)):
+                sums[lane] += taps[own, down, lane] * padded[top + down, left + lane]
+        score = sums.sum() * np.float32(1 / 255)
+        scores[pixel] = min(max(score, np.float32(0)), np.float32(1))
     return scores

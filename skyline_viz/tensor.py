@@ -39,11 +39,17 @@ class Tensor:
 def tensor_map(photo: U8) -> Tensor:
     """Structure tensor of every pixel of an RGB photo; `tensor_at` gives the same values."""
     height, width = photo.shape[:2]
-    sums = [
+    channels = [plane.astype(np.float32) for plane in _padded_channels(photo)]
+    falling = [plane[1:, 1:] - plane[:-1, :-1] for plane in channels]
+    rising = [plane[:-1, 1:] - plane[1:, :-1] for plane in channels]
+    gx = [(a + b) / 2 for a, b in zip(falling, rising, strict=True)]
+    gy = [(a - b) / 2 for a, b in zip(falling, rising, strict=True)]
+    sums = []
+    for left, right in ((gx, gx), (gx, gy), (gy, gy)):
+        product = np.add.reduce([a * b for a, b in zip(left, right, strict=True)])
+        smooth = cv2.sepFilter2D(product, -1, WINDOW, WINDOW)
         # an even kernel is anchored at its fourth tap: value p covers the differences p-3 to p+2
-        cv2.sepFilter2D(plane, -1, WINDOW, WINDOW)[_REACH:, _REACH:][:height, :width].ravel()
-        for plane in _products(*_padded_channels(photo))
-    ]
+        sums.append(smooth[_REACH : _REACH + height, _REACH : _REACH + width].ravel())
     strength, coherence, orientation = _eigen(*sums).reshape(3, height, width)
     return Tensor(strength, coherence, orientation)
 
@@ -53,11 +59,13 @@ def tensor_at(photo: U8, rows: Int, columns: Int) -> Tensor:
 
     Args:
         photo: ``(H, W, 3)`` uint8 RGB.
-        rows: ``(n,)`` int32, each in ``[0, H)``.
+        rows: ``(n,)`` int32, each in ``[0, H)``; fastest in ascending order.
         columns: ``(n,)`` int32, each in ``[0, W)``.
     """
-    products = _products(*_padded_channels(photo))
-    return Tensor(*_eigen(*_window_sums(products, rows, columns, WINDOW)))
+    order = np.argsort(rows, kind="stable")
+    first = np.searchsorted(rows[order], np.arange(photo.shape[0] + 1))
+    sums = _window_sums(*_padded_channels(photo), columns, order, first, WINDOW)
+    return Tensor(*_eigen(*sums))
 
 
 def _padded_channels(photo: U8) -> Sequence[U8]:
@@ -67,60 +75,83 @@ def _padded_channels(photo: U8) -> Sequence[U8]:
     return channels
 
 
-@numba.njit(cache=True, nogil=True)
-def _products(red: U8, green: U8, blue: U8) -> F32:
-    """``gx gx``, ``gx gy`` and ``gy gy`` between each four pixels, summed over the channels.
-
-    ``(3, h, w)`` for channels ``(h, w)``; the last row and column are zero. Separate channels and
-    whole-number sums let the compiler take 16 pixels at a time.
-    """
-    height, width = red.shape
-    products = np.zeros((3, height, width), np.float32)
-    quarter = np.float32(0.25)
-    for row in range(height - 1):
-        for column in range(width - 1):
-            xx = 0
-            xy = 0
-            yy = 0
-            for plane in (red, green, blue):
-                falling = np.int32(plane[row + 1, column + 1]) - np.int32(plane[row, column])
-                rising = np.int32(plane[row, column + 1]) - np.int32(plane[row + 1, column])
-                gx = falling + rising  # twice the gradient: hence the quarter below
-                gy = falling - rising
-                xx += gx * gx
-                xy += gx * gy
-                yy += gy * gy
-            products[0, row, column] = xx * quarter
-            products[1, row, column] = xy * quarter
-            products[2, row, column] = yy * quarter
-    return products
-
-
 @numba.njit(cache=True, nogil=True, fastmath=True)
-def _window_sums(products: F32, rows: Int, columns: Int, window: F32) -> F32:
-    """Sums of the products over the window around each chosen pixel, ``(3, n)``."""
-    sums = np.empty((3, rows.size), np.float32)
-    for pixel in range(rows.size):
-        top = rows[pixel]
-        left = columns[pixel]
-        for product in range(3):
-            total = np.float32(0)
-            for down in range(6):
-                line = np.float32(0)
-                for right in range(6):
-                    line += window[right] * products[product, top + down, left + right]
-                total += window[down] * line
-            sums[product, pixel] = total
+def _window_sums(
+    red: U8, green: U8, blue: U8, columns: Int, order: Int, first: Int, window: F32
+) -> F32:
+    """Sums of gx gx, gx gy and gy gy over the window around each chosen pixel, ``(3, n)``.
+
+    Walks down the photo with the products of the last six rows at hand: whole rows are summed
+    downwards, 16 pixels at a time, and only chosen pixels sideways.
+
+    Args:
+        red: Channel ``(H + 6, W + 6)``, as are `green` and `blue`.
+        green: See `red`.
+        blue: See `red`.
+        columns: ``(n,)`` columns of the chosen pixels.
+        order: ``(n,)`` pixels in ascending order of rows.
+        first: ``(H + 1,)`` place in `order` of each row's first pixel.
+        window: ``(6,)`` weights.
+    """
+    height = red.shape[0] - 6
+    width = red.shape[1] - 1
+    sums = np.empty((3, columns.size), np.float32)
+    recent = np.zeros((6, 3, width), np.float32)
+    across = np.zeros((3, width), np.float32)
+    for row in range(height + 5):
+        _products(red, green, blue, row, recent[row % 6])
+        target = row - 5
+        if target < 0 or first[target] == first[target + 1]:
+            continue
+        across[:] = 0
+        for tap in range(6):
+            line = recent[(target + tap) % 6]
+            for product in range(3):
+                for column in range(width):
+                    across[product, column] += window[tap] * line[product, column]
+        for place in range(first[target], first[target + 1]):
+            pixel = order[place]
+            left = columns[pixel]
+            for product in range(3):
+                total = np.float32(0)
+                for tap in range(6):
+                    total += window[tap] * across[product, left + tap]
+                sums[product, pixel] = total
     return sums
+
+
+@numba.njit(cache=True, nogil=True)
+def _products(red: U8, green: U8, blue: U8, row: int, products: F32) -> None:
+    """Write gx gx, gx gy and gy gy below one row, summed over channels, to ``(3, w - 1)``."""
+    quarter = np.float32(0.25)
+    for column in range(products.shape[1]):
+        xx = np.int32(0)
+        xy = np.int32(0)
+        yy = np.int32(0)
+        for plane in (red, green, blue):
+            falling = np.int32(plane[row + 1, column + 1]) - np.int32(plane[row, column])
+            rising = np.int32(plane[row, column + 1]) - np.int32(plane[row + 1, column])
+            gx = falling + rising  # twice the gradient: hence the quarter below
+            gy = falling - rising
+            xx += gx * gx
+            xy += gx * gy
+            yy += gy * gy
+        products[0, column] = xx * quarter
+        products[1, column] = xy * quarter
+        products[2, column] = yy * quarter
 
 
 def _eigen(txx: F32, txy: F32, tyy: F32) -> F32:
     """Strength, coherence and orientation of ``(n,)`` tensors, ``(3, n)``."""
+    features = np.empty((3, len(txx)), np.float32)
     half_trace = (txx + tyy) * np.float32(0.5)
-    half_gap = np.hypot((txx - tyy) * np.float32(0.5), txy)
-    large = np.sqrt(half_trace + half_gap)
+    half_gap = np.sqrt(np.square((txx - tyy) * np.float32(0.5)) + np.square(txy))
+    large = np.sqrt(half_trace + half_gap, out=features[0])
     small = np.sqrt(np.maximum(half_trace - half_gap, 0))
-    total = large + small
-    coherence = np.divide(large - small, total, out=np.zeros_like(total), where=total > 0)
-    angle = np.degrees(np.arctan2(2 * txy, txx - tyy)) * np.float32(0.5)
-    return np.stack([large, coherence, np.mod(angle, np.float32(180))])
+    # where nothing changes both are zero, and so is the coherence
+    np.divide(large - small, np.maximum(large + small, np.float32(1e-12)), out=features[1])
+    angle = np.arctan2(2 * txy, txx - tyy) * np.float32(90 / np.pi)
+    angle[angle < 0] += np.float32(180)
+    angle[angle >= 180] = 0  # a tiny negative angle plus 180 rounds to 180
+    features[2] = angle
+    return features

@@ -31,14 +31,11 @@ def block_features(photo: U8, edges: Bool) -> F32:
         photo: ``(H, W, 3)`` uint8 RGB.
         edges: ``(H, W)`` edge map.
     """
-    height, width = edges.shape
-    size = (max(1, round(width / BLOCK)), max(1, round(height / BLOCK)))
-    colour = cv2.resize(photo, size, interpolation=cv2.INTER_AREA).astype(np.float32) / 255
-    as_bytes = edges.view(np.uint8) * np.uint8(255)
-    density = cv2.resize(as_bytes, size, interpolation=cv2.INTER_AREA).astype(np.float32) / 255
+    colour = _block_means(photo)
+    density = _block_means(edges.view(np.uint8) * np.uint8(255))
     red, green, blue = np.moveaxis(colour, 2, 0)
     brightness = colour.mean(axis=2)
-    top = colour[: max(1, size[1] // _TOP_SHARE)].reshape(-1, 3).mean(axis=0)
+    top = colour[: max(1, len(colour) // _TOP_SHARE)].reshape(-1, 3).mean(axis=0)
     return np.stack(
         [
             np.ones_like(brightness),
@@ -60,7 +57,7 @@ def block_features(photo: U8, edges: Bool) -> F32:
 
 
 def terrain_above(photo: U8, edges: Bool, weights: F32) -> F32:
-    """How much terrain, rather than sky, seems to lie above each pixel.
+    """How much terrain, rather than sky, seems to lie above the centre of each block.
 
     Args:
         photo: ``(H, W, 3)`` uint8 RGB.
@@ -68,15 +65,12 @@ def terrain_above(photo: U8, edges: Bool, weights: F32) -> F32:
         weights: ``(FEATURES,)`` of the linear model; -1 means sky, 1 terrain.
 
     Returns:
-        ``(H, W)`` float32, a transposed view: the sum over the rows above, in heights of the
-        photo; -0.3 = three tenths of the height above this pixel are surely sky.
+        ``(h, w)`` float32, summed over the blocks above, in heights of the photo; -0.3 = three
+        tenths of the height above this block are surely sky.
     """
-    height, width = edges.shape
-    looks = np.clip(block_features(photo, edges) @ weights, -1, 1).T  # (w, h), down the columns
-    above = np.cumsum(looks, axis=1, dtype=np.float32) - looks / 2
-    spread: F32 = cv2.resize(np.ascontiguousarray(above), (height, width))
-    spread /= looks.shape[1]
-    return spread.T
+    looks = np.clip(block_features(photo, edges) @ weights, -1, 1)
+    above: F32 = (np.cumsum(looks, axis=0) - looks / 2) * np.float32(BLOCK / len(edges))
+    return above
 
 
 def terrain_sums(photo: U8, edges: Bool, truth: Skyline) -> F64:
@@ -90,13 +84,23 @@ def terrain_sums(photo: U8, edges: Bool, truth: Skyline) -> F64:
     sums = np.zeros((FEATURES + 1, FEATURES + 1))
     for version in (photo, grey):
         features = block_features(version, edges)
-        size = features.shape[1::-1]
-        share = cv2.resize(sky, size, interpolation=cv2.INTER_AREA).astype(np.float64) / 255
-        columns = np.linspace(0, truth.width - 1, size[0]).astype(np.intp)
-        samples = np.dstack([features, 1 - 2 * share])[:, truth.visible[columns]]
+        centres = np.minimum(np.arange(features.shape[1]) * BLOCK + BLOCK // 2, truth.width - 1)
+        samples = np.dstack([features, 1 - 2 * _block_means(sky)])[:, truth.visible[centres]]
         samples = samples.reshape(-1, FEATURES + 1)
         sums += samples.T @ samples
     return sums
+
+
+def _block_means(image: U8) -> F32:
+    """Mean of every whole block, in [0, 1]; what is left over at the right and bottom is cut."""
+    height, width = image.shape[:2]
+    if min(height, width) < BLOCK:
+        image = cv2.resize(image, (max(width, BLOCK), max(height, BLOCK)))
+        height, width = image.shape[:2]
+    size = (width // BLOCK, height // BLOCK)
+    whole = image[: size[1] * BLOCK, : size[0] * BLOCK]
+    means: F32 = cv2.resize(whole, size, interpolation=cv2.INTER_AREA).astype(np.float32) / 255
+    return means
 
 
 def solve_terrain(sums: F64) -> F32:

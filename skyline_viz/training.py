@@ -20,7 +20,6 @@ from skyline_viz.config import TrainingConfig
 from skyline_viz.detector import candidate_edges
 from skyline_viz.edges import edge_pixels, to_grey
 from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank, Provenance
-from skyline_viz.scale import reduced, reduction, rescaled
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.tensor import tensor_at
 from skyline_viz.terrain import FEATURES, solve_terrain, terrain_sums
@@ -105,11 +104,6 @@ def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> Gram
     height, width = photo.shape[:2]
     if truth.width != width:
         raise SkylineError(f"the truth has {truth.width} columns, the photo {width}")
-    factor = reduction(height, width, config.detector.working_megapixels)
-    if factor > 1:
-        photo = reduced(photo, factor)
-        truth = rescaled(truth, height, *photo.shape[:2])
-        height, width = photo.shape[:2]
     truth_rows = truth.pixel_rows(height).astype(np.int32)
     columns = np.flatnonzero(truth.visible & (truth_rows < height)).astype(np.int32)
     rows = truth_rows[columns]
@@ -163,7 +157,8 @@ def regress(sums: F64, smoothness: float) -> F64:
     # a trace of the unit matrix keeps a bin without any sample solvable: its filter is zero
     regulariser = smoothness * smoothness_form(size) + 1e-3 * np.eye(size * size)
     system = sums[:, :-1, :-1] + regulariser
-    return np.linalg.solve(system, sums[:, :-1, -1:]).reshape(-1, size, size)
+    filters = np.linalg.solve(system, sums[:, :-1, -1:])
+    return filters.reshape(-1, size, size).astype(np.float64, copy=False)
 
 
 def pooled(sums: F64, bins: Bins, over: tuple[int, ...] = (0, 1)) -> F64:

@@ -59,7 +59,7 @@ def result(name="a", error=0.0, **changes):
 
 def test_a_result_by_hand():
     truth = sv.Skyline([10, 10, 10, 10], np.array([True, True, True, False]))
-    one = PhotoResult.of("a", sv.Skyline([10, 16, 10, 90]), truth, height=30, seconds=0.25)
+    one = PhotoResult.of("a", sv.Skyline([10, 16, 10, 29]), truth, height=30, seconds=0.25)
     assert one == PhotoResult(
         name="a",
         a_err=2.0,

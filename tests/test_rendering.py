@@ -8,7 +8,7 @@ from PIL import Image
 
 from skyline_viz import rendering
 from skyline_viz.photo import read_photo
-from skyline_viz.rendering import KINDS, SAMPLES, render, write_samples
+from skyline_viz.rendering import KINDS, SAMPLES, render, sample_scenes, write_scenes
 from skyline_viz.skyline import Skyline
 
 WIDTH, HEIGHT = 320, 180
@@ -179,8 +179,8 @@ def test_samples_are_written_the_same_every_time(tmp_path, monkeypatch):
     assert len({(kind, seed) for kind, seed, *_ in SAMPLES}) == 12
     small = tuple((kind, seed, 96, 64) for kind, seed, *_ in SAMPLES[:4])
     monkeypatch.setattr(rendering, "SAMPLES", small)
-    photos = write_samples(tmp_path / "a")
-    write_samples(tmp_path / "b")
+    photos = list(write_scenes(sample_scenes(), tmp_path / "a"))
+    list(write_scenes(sample_scenes(), tmp_path / "b"))
     files = sorted(file for file in (tmp_path / "a").rglob("*") if file.is_file())
     assert len(files) == 8
     for file in files:

@@ -16,6 +16,7 @@ from skyline_viz.batch import Failure, run
 from skyline_viz.commands.demo_page import Shown, page
 from skyline_viz.commands.inputs import Input, collect, output_folder
 from skyline_viz.commands.messages import SOME_FAILED, counted, say, status_after
+from skyline_viz.commands.render import write_with_progress
 from skyline_viz.commands.settings import Folder, make_detector
 from skyline_viz.config import DetectorConfig
 from skyline_viz.datasets import DatasetError, open_dataset
@@ -53,6 +54,7 @@ class Demo:
         inputs = collect(self.photos or [self._samples()])
         output_folder(self.out, (one.item for one in inputs))
         detector = make_detector(None, DetectorConfig())
+        wide = max(len(one.name) for one in inputs)
         shown: list[Shown] = []
         tiles: list[Tile] = []
         failures: list[Failure] = []
@@ -63,7 +65,7 @@ class Demo:
             one, tile = outcome
             shown.append(one)
             tiles += [tile] if len(tiles) < MOST_TILES else []
-            print(one.line())
+            print(one.line(wide))
         if not shown:
             status_after(failures)
             return SOME_FAILED
@@ -82,11 +84,11 @@ class Demo:
                     return folder
             except DatasetError:
                 continue
-        from skyline_viz.rendering import write_samples  # noqa: PLC0415
+        from skyline_viz.rendering import SAMPLES, sample_scenes  # noqa: PLC0415
 
         folder = output_folder(self.out, ()) / "sample_data"
         say(f"rendering sample photos into {folder}.")
-        write_samples(folder)
+        list(write_with_progress(sample_scenes(), folder, len(SAMPLES)))
         return folder
 
     def _write(self, shown: list[Shown], tiles: list[Tile]) -> Path:

@@ -32,11 +32,11 @@ class Shown:
     gross_miss: bool
     """Whether A_err is over 5 % of the height."""
 
-    def line(self) -> str:
-        """One line for a terminal."""
+    def line(self, wide: int) -> str:
+        """One line for a terminal, with the name in a column of `wide` characters."""
         size = f"{self.width}x{self.height}"
         error = "" if self.a_err is None else f"  A_err {self.a_err:.2f} px"
-        return f"{self.name}  {size}  {self.seconds:.3f} s{error}"
+        return f"{self.name:<{wide}}  {size:>9}  {self.seconds:6.3f} s{error}"
 
 
 def page(photos: Sequence[Shown]) -> str:

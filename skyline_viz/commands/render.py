@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 import tyro
 
 from skyline_viz.commands.inputs import output_folder
 from skyline_viz.commands.messages import GOOD, UsageError, counted
 from skyline_viz.commands.settings import Folder
+from skyline_viz.progress import ProgressBar
+
+if TYPE_CHECKING:
+    from skyline_viz.rendering import Scene
 
 
 @dataclass(frozen=True)
@@ -43,28 +47,35 @@ class Render:
         if self.count < 1:
             raise UsageError(f"--count is 1 or more, not {self.count}.")
         output_folder(self.out, ())
-        if self.kind is None:
-            from skyline_viz.rendering import write_samples  # noqa: PLC0415
+        from skyline_viz.rendering import SAMPLES, render, sample_scenes  # noqa: PLC0415
 
-            paths = write_samples(self.out)
-        else:
-            seeds = range(self.seed, self.seed + self.count)
-            paths = [self._write(self.kind, seed) for seed in seeds]
-        for path in paths:
+        seeds = range(self.seed, self.seed + self.count)
+        kind: Any = self.kind  # which the renderer checks
+        scenes = (
+            sample_scenes()
+            if kind is None
+            else (render(kind, seed, self.width, self.height) for seed in seeds)
+        )
+        total = len(SAMPLES) if kind is None else self.count
+        count = 0
+        for path in write_with_progress(scenes, self.out, total):
             print(path)
-        print(f"{counted(len(paths), 'scene')} in {self.out}")
+            count += 1
+        print(f"{counted(count, 'scene')} in {self.out}")
         return GOOD
 
-    def _write(self, kind: str, seed: int) -> Path:
-        from skyline_viz.files import replacing  # noqa: PLC0415
-        from skyline_viz.photo import write_photo  # noqa: PLC0415
-        from skyline_viz.rendering import render  # noqa: PLC0415
 
-        scene = render(kind, seed, self.width, self.height)  # type: ignore[arg-type]  # it checks
-        path = self.out / "images" / f"{scene.name}.jpg"
-        with replacing(path) as temporary:
-            temporary.write_bytes(scene.jpeg)
-        terrain = ~scene.truth.to_mask(len(scene.photo))
-        mask = terrain.astype(np.uint8) * np.uint8(255)
-        write_photo(self.out / "masks" / f"{scene.name}.png", mask)
-        return path
+def write_with_progress(scenes: Iterable[Scene], folder: Path, total: int) -> Iterator[Path]:
+    """Write scenes as a data set with a progress bar; yield the path of each photo.
+
+    Args:
+        scenes: What to write.
+        folder: Where to.
+        total: Number of scenes, for the progress bar.
+    """
+    from skyline_viz.rendering import write_scenes  # noqa: PLC0415
+
+    with ProgressBar(total, "scenes") as bar:
+        for path in write_scenes(scenes, folder):
+            bar.advance()
+            yield path

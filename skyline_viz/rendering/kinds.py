@@ -6,10 +6,10 @@ from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
-from skyline_viz.rendering_plain import Plain
-from skyline_viz.rendering_range import Range
-from skyline_viz.rendering_sky import Sky
-from skyline_viz.rendering_terrain import Colour, Frame, Light
+from skyline_viz.rendering.mountains import Range
+from skyline_viz.rendering.plain import Plain
+from skyline_viz.rendering.sky import Sky
+from skyline_viz.rendering.terrain import Colour, Frame, Light
 
 Kind: TypeAlias = Literal[
     "clear", "hazy", "cloudy", "snow", "foreground", "spires", "desert", "rover"

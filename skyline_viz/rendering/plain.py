@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from skyline_viz.arrays import F32
-from skyline_viz.rendering_filters import box_blur, mix, ramp
-from skyline_viz.rendering_noise import Noise
-from skyline_viz.rendering_terrain import (
+from skyline_viz.rendering.filters import box_blur, mix, ramp
+from skyline_viz.rendering.noise import Noise
+from skyline_viz.rendering.terrain import (
     PLANTS,
     ROCK,
     Cover,

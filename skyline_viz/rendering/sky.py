@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from skyline_viz.arrays import F32
-from skyline_viz.rendering_filters import mix, ramp
-from skyline_viz.rendering_noise import Noise
-from skyline_viz.rendering_terrain import Colour, Frame, tint
+from skyline_viz.rendering.filters import mix, ramp
+from skyline_viz.rendering.noise import Noise
+from skyline_viz.rendering.terrain import Colour, Frame, tint
 
 _VEIL = (0.93, 0.93, 0.94)
 _CLOUD_SHADE = (0.40, 0.43, 0.49)

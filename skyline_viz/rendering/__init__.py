@@ -12,7 +12,7 @@ integers too; another release of it may code the same pixels differently.
 
 import io
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,13 +22,13 @@ from PIL import Image
 from skyline_viz.arrays import F32, U8, read_only
 from skyline_viz.files import replacing
 from skyline_viz.photo import write_photo
-from skyline_viz.rendering_filters import mix, soften
-from skyline_viz.rendering_kinds import KINDS, Kind, View, compose
-from skyline_viz.rendering_noise import Noise
-from skyline_viz.rendering_plain import Plain, plain
-from skyline_viz.rendering_range import mountain_range
-from skyline_viz.rendering_sky import paint_sky
-from skyline_viz.rendering_terrain import Frame, project
+from skyline_viz.rendering.filters import mix, soften
+from skyline_viz.rendering.kinds import KINDS, Kind, View, compose
+from skyline_viz.rendering.mountains import mountain_range
+from skyline_viz.rendering.noise import Noise
+from skyline_viz.rendering.plain import Plain, plain
+from skyline_viz.rendering.sky import paint_sky
+from skyline_viz.rendering.terrain import Frame, project
 from skyline_viz.skyline import Skyline
 
 _QUALITY = 90
@@ -150,22 +150,23 @@ def sample_scenes() -> Iterator[Scene]:
         yield render(kind, seed, width, height)
 
 
-def write_samples(folder: str | os.PathLike[str]) -> list[Path]:
-    """Write the sample scenes and their truth.
+def write_scenes(scenes: Iterable[Scene], folder: str | os.PathLike[str]) -> Iterator[Path]:
+    """Write scenes and their truth as a data set, one at a time, each file whole.
 
-    Each scene becomes ``images/<name>.jpg`` and ``masks/<name>.png``, a grey picture of the same
-    size that is 0 in the sky and 255 in the terrain.
+    A scene becomes ``images/<name>.jpg`` and ``masks/<name>.png``, a grey picture of the same size
+    that is 0 in the sky and 255 in the terrain.
 
-    Returns:
-        The photos' paths.
+    Args:
+        scenes: What to write.
+        folder: Where to.
+
+    Yields:
+        The path of each photo, once it and its mask are written.
     """
-    photos = []
-    for scene in sample_scenes():
+    for scene in scenes:
         path = Path(folder) / "images" / f"{scene.name}.jpg"
+        terrain = ~scene.truth.to_mask(len(scene.photo))
+        write_photo(Path(folder) / "masks" / f"{scene.name}.png", terrain * np.uint8(255))
         with replacing(path) as temporary:
             temporary.write_bytes(scene.jpeg)
-        terrain = ~scene.truth.to_mask(len(scene.photo))
-        mask = terrain.astype(np.uint8) * np.uint8(255)
-        write_photo(Path(folder) / "masks" / f"{scene.name}.png", mask)
-        photos.append(path)
-    return photos
+        yield path

@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from skyline_viz.arrays import F32
-from skyline_viz.rendering_filters import mix, ramp, slopes
+from skyline_viz.rendering.filters import mix, ramp, slopes
 
 Cover: TypeAlias = Literal["alpine", "forest", "snow", "rock", "desert", "basalt", "heath"]
 """What clothes the ground."""

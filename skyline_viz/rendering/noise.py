@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from skyline_viz.arrays import F32, Int
-from skyline_viz.rendering_filters import mix
+from skyline_viz.rendering.filters import mix
 
 _PERIOD = 256
 

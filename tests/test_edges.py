@@ -1,0 +1,237 @@
+"""Edges: what colour sees and grey does not, where a sharp skyline lies, fitted thresholds."""
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from skyline_viz.config import DetectorConfig
+from skyline_viz.detector import candidate_edges
+from skyline_viz.edges import edge_pixels, to_grey
+
+STEADY = settings(deadline=None, derandomize=True, max_examples=60)
+SOURCES = pytest.mark.parametrize("source", ["grey", "colour"])
+
+
+def edges_of(photo, source="colour", **chosen):
+    """Edge map with fixed thresholds and without a frame, unless chosen otherwise."""
+    config = {"edge_source": source, "fit_thresholds": False, "frame": 0} | chosen
+    return candidate_edges(photo, DetectorConfig(**config))[0]
+
+
+def thresholds_of(photo, source="colour", **chosen):
+    config = DetectorConfig(edge_source=source, fit_thresholds=True, **chosen)
+    return candidate_edges(photo, config)[1]
+
+
+def step(row=25, sky=(200, 210, 230), terrain=(60, 70, 50)):
+    photo = np.empty((40, 60, 3), np.uint8)
+    photo[:row] = sky
+    photo[row:] = terrain
+    return photo
+
+
+def texture(seed=0):
+    """Blocks of random colours: a crisp photo full of strong edges."""
+    blocks = np.random.default_rng(seed).integers(0, 256, (20, 30, 3), dtype=np.uint8)
+    return cv2.resize(blocks, (240, 160), interpolation=cv2.INTER_NEAREST)
+
+
+def grainy(photo, deviation, seed=0):
+    noise = np.random.default_rng(seed).normal(0, deviation, photo.shape)
+    return np.clip(photo + noise, 0, 255).astype(np.uint8)
+
+
+def noise(height, width, seed):
+    return np.random.default_rng(seed).integers(0, 256, (height, width, 3), dtype=np.uint8)
+
+
+# Where edges are
+
+
+@SOURCES
+@pytest.mark.parametrize("row", [4, 20, 25, 35])
+def test_a_sharp_skyline_lies_on_the_first_row_of_terrain(source, row):
+    edges = edges_of(step(row), source)
+    assert edges.shape == (40, 60)
+    assert edges.dtype == np.bool_
+    assert np.array_equal(np.flatnonzero(edges.any(axis=1)), [row])
+    assert edges[row].all()
+
+
+@SOURCES
+def test_bright_terrain_under_a_dark_sky_too(source):
+    edges = edges_of(step(18, (20, 30, 60), (240, 240, 250)), source)
+    assert np.flatnonzero(edges.any(axis=1)).tolist() == [18]
+
+
+def test_colour_finds_what_grey_misses():
+    photo = step(20, (40, 110, 230), (150, 100, 18))
+    grey = to_grey(photo)
+    assert abs(int(grey[0, 0]) - int(grey[-1, 0])) < 5
+    assert not edges_of(photo, "grey").any()
+    assert edges_of(photo, "colour")[20].all()
+
+
+@pytest.mark.parametrize("channel", [0, 1, 2])
+def test_every_channel_counts(channel):
+    photo = np.full((40, 60, 3), 100, np.uint8)
+    photo[15:, :, channel] = 180
+    assert edges_of(photo)[15].all()
+
+
+@pytest.mark.parametrize(("low", "high"), [(50, 220), (20, 80)])
+@pytest.mark.parametrize("seed", range(3))
+def test_edges_are_those_of_canny_upside_down(seed, low, high):
+    photo = cv2.GaussianBlur(noise(40, 60, seed), (0, 0), 0.8)
+    chosen = {"low_threshold": low, "high_threshold": high}
+    for source, seen in (("grey", to_grey(photo)), ("colour", photo)):
+        expected = cv2.Canny(np.ascontiguousarray(seen[::-1]), low, high)[::-1] > 0
+        assert expected.any()
+        assert np.array_equal(edges_of(photo, source, **chosen), expected)
+
+
+@SOURCES
+def test_weak_edges_need_strong_neighbours(source):
+    photo = step(25, (120, 120, 120), (100, 100, 100))  # a Sobel gradient of 80
+    assert not edges_of(photo, source).any()
+    assert edges_of(photo, source, high_threshold=79)[25].all()
+    assert not edges_of(photo, source, low_threshold=81, high_threshold=81).any()
+    photo[25:, :20] = 20  # 400 here: a start from which the weak edge is followed
+    assert edges_of(photo, source)[25].all()
+
+
+def test_fitted_edges_are_those_of_the_fitted_thresholds():
+    photo = cv2.GaussianBlur(texture(), (0, 0), 6)
+    low, high = thresholds_of(photo)
+    fitted = edges_of(photo, fit_thresholds=True)
+    assert np.array_equal(fitted, edges_of(photo, low_threshold=low, high_threshold=high))
+    assert fitted.sum() > edges_of(photo).sum()
+
+
+@pytest.mark.parametrize("frame", [0, 1, 4, 19, 20, 1000])
+def test_edges_in_the_frame_are_dropped(frame):
+    photo = texture()[:40, :60]
+    everywhere = edges_of(photo)
+    expected = everywhere.copy()
+    for row in range(40):
+        if row < frame or row >= 40 - frame:
+            expected[row] = False
+    assert np.array_equal(edges_of(photo, frame=frame), expected)
+    assert everywhere[0].any()
+    assert everywhere[-1].any()
+
+
+@SOURCES
+@pytest.mark.parametrize("value", [0, 128, 255])
+def test_flat_photos_have_no_edge(source, value):
+    photo = np.full((20, 30, 3), value, np.uint8)
+    assert not edges_of(photo, source).any()
+    assert not edges_of(photo, source, fit_thresholds=True).any()
+
+
+@SOURCES
+def test_the_photo_is_left_alone(source):
+    photo = texture()
+    before = photo.copy()
+    photo.setflags(write=False)
+    edges_of(photo, source, fit_thresholds=True)
+    assert np.array_equal(photo, before)
+
+
+# Fitted thresholds
+
+
+def test_a_crisp_photo_keeps_its_thresholds():
+    assert thresholds_of(texture()) == (50, 220)
+
+
+def test_a_blurred_photo_gets_lower_ones():
+    found = [thresholds_of(cv2.GaussianBlur(texture(), (0, 0), blur))[1] for blur in (4, 6, 8)]
+    assert 220 >= found[0] > found[1] > found[2] > 0.3 * 220
+
+
+def test_thresholds_go_down_to_three_tenths_at_most():
+    assert thresholds_of(np.full((20, 30, 3), 90, np.uint8)) == pytest.approx((15, 66))
+    assert thresholds_of(step()) == pytest.approx((15, 66))
+
+
+def test_grain_holds_the_thresholds_up():
+    soft = cv2.GaussianBlur(texture(), (0, 0), 8)
+    found = [thresholds_of(grainy(soft, grain))[1] for grain in (0, 3, 6, 20)]
+    assert found[0] < found[1] < found[2] < found[3] == 220
+
+
+@SOURCES
+@STEADY
+@given(
+    height=st.integers(3, 40),
+    width=st.integers(3, 40),
+    seed=st.integers(0, 2**32 - 1),
+    contrast=st.floats(0, 1),
+    low=st.floats(1, 200),
+    ratio=st.floats(1, 8),
+)
+def test_thresholds_keep_their_ratio_and_are_never_raised(
+    source, height, width, seed, contrast, low, ratio
+):
+    photo = (noise(height, width, seed) * contrast).astype(np.uint8)
+    high = low * ratio
+    found_low, found_high = thresholds_of(photo, source, low_threshold=low, high_threshold=high)
+    assert 0.3 * high * (1 - 1e-9) <= found_high <= high
+    assert found_low * high == pytest.approx(found_high * low)
+
+
+def test_grey_and_colour_are_fitted_to_what_they_see():
+    photo = cv2.GaussianBlur(step(20, (40, 110, 230), (150, 100, 18)), (0, 0), 4)
+    photo = np.tile(photo, (4, 1, 1))
+    assert thresholds_of(photo, "grey")[1] < thresholds_of(photo, "colour")[1]
+
+
+def test_thresholds_are_plain_numbers():
+    assert [type(value) for value in thresholds_of(texture())] == [float, float]
+    fixed = candidate_edges(texture(), DetectorConfig(fit_thresholds=False))[1]
+    assert fixed == (50, 220)
+
+
+@pytest.mark.parametrize("shape", [(2, 2), (2, 50), (50, 2), (3, 3), (1000, 2)])
+def test_narrow_photos(shape):
+    photo = noise(*shape, seed=1)
+    low, high = thresholds_of(photo)
+    assert 15 <= low <= 50
+    assert 66 <= high <= 220
+    assert edges_of(photo, fit_thresholds=True).shape == shape
+
+
+@pytest.mark.parametrize("fit", [False, True])
+def test_thresholds_of_zero(fit):
+    edges = edges_of(texture(), low_threshold=0, high_threshold=0, fit_thresholds=fit)
+    assert edges.any()
+
+
+# Edge pixels
+
+
+@STEADY
+@given(st.integers(1, 9), st.integers(1, 9), st.integers(0, 2**32 - 1))
+def test_edge_pixels_run_row_by_row(height, width, seed):
+    edges = np.random.default_rng(seed).random((height, width)) < 0.4
+    rows, columns = edge_pixels(edges)
+    assert rows.dtype == columns.dtype == np.int32
+    expected = [(r, c) for r in range(height) for c in range(width) if edges[r, c]]
+    assert list(zip(rows.tolist(), columns.tolist(), strict=True)) == expected
+
+
+def test_edge_pixels_of_a_view():
+    edges = np.zeros((5, 6), bool)
+    edges[[1, 3], [4, 0]] = True
+    rows, columns = edge_pixels(edges[::-1, ::-1])
+    assert (rows.tolist(), columns.tolist()) == ([1, 3], [5, 1])
+
+
+def test_grey_has_the_usual_weights():
+    photo = np.zeros((1, 4, 3), np.uint8)
+    photo[0, :3] = np.eye(3) * 255
+    photo[0, 3] = 255
+    assert to_grey(photo).tolist() == [[76, 150, 29, 255]]
