@@ -124,7 +124,7 @@ a:focus-visible { outline: 3px solid var(--ink); outline-offset: 2px; }
   grid-template-columns: repeat(auto-fill, minmax(min(26rem, 100%), 1fr)); }
 figure { margin: 0; }
 figure:target img { outline: 3px solid var(--ink); outline-offset: 2px; }
-img { display: block; width: 100%; height: auto; }
+img { display: block; max-width: 100%; max-height: 20rem; }
 figcaption { margin-top: .35rem; color: var(--soft); overflow-wrap: anywhere; }
 strong { color: var(--ink); }
 table { margin-top: 2rem; border-collapse: collapse; }

@@ -1,0 +1,1 @@
+"""What the README's figures come from, a module each; ``python -m benchmarks [DATA]`` runs all."""

@@ -1,0 +1,44 @@
+"""Run every benchmark and write ``benchmarks/results.md``.
+
+    python -m benchmarks [DATA]
+
+DATA is a folder with the real data sets: ``web_dataset`` (photos with truth, in the layout in
+which the authors publish the Web set) and, if there, ``new_dataset`` (large photos). Without it
+only the rendered samples are measured, and the report says so.
+"""
+
+import datetime as dt
+import os
+import platform
+import sys
+from pathlib import Path
+
+from benchmarks import accuracy, filters, robustness, speed
+from skyline_viz import __version__
+from skyline_viz.files import write_text
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def main() -> None:
+    """Run all benchmarks that the given data allow."""
+    data = Path(sys.argv[1]) if len(sys.argv) > 1 else None
+    web = data / "web_dataset" if data else None
+    parts = [
+        "# Benchmarks",
+        f"skyline-viz {__version__}, Python {platform.python_version()}, {os.cpu_count()} "
+        f"processors ({platform.machine()}), {dt.datetime.now(dt.UTC):%Y-%m-%d}. "
+        "Times are ratios within one run, or say what else they are.",
+    ]
+    if web is None or not web.is_dir():
+        parts.append("Real photographs: **not run**, no folder was given (`make bench DATA=DIR`).")
+    else:
+        parts += [accuracy.cross_validated(web), robustness.varied(web), filters.studies(web)]
+    parts += [accuracy.rendered(ROOT / "sample_data"), speed.measured(web, ROOT / "sample_data")]
+    report = "\n\n".join(parts) + "\n"
+    write_text(ROOT / "benchmarks" / "results.md", report)
+    print(report)
+
+
+if __name__ == "__main__":
+    main()

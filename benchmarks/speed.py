@@ -1,0 +1,129 @@
+"""Time and memory: ratios to ``cv2.Canny`` in one process, growth with size, whole processes."""
+
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import cv2
+
+from benchmarks.table import markdown
+from skyline_viz import Detector, open_dataset, read_photo, train, write_photo
+from skyline_viz.arrays import U8
+from skyline_viz.photo import find_photos
+
+REPEATS = 7
+
+_PEAK = """
+import resource, sys
+from skyline_viz import Detector, read_photo
+photo = read_photo(sys.argv[1])
+Detector().detect(photo)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+"""
+
+
+def measured(web: Path | None, samples: Path) -> str:
+    """All measurements; on the real photographs where they are, else on the rendered samples."""
+    folder = web if web and web.is_dir() else samples
+    items = list(open_dataset(folder))
+    photos = [item.photo() for item in items]
+    parts = [f"## Speed, on {len(photos)} photographs of `{folder.name}`", _ratios(photos)]
+    large = find_photos(web.parent / "new_dataset") if web and web.is_dir() else []
+    parts.append(_growth(photos, [read_photo(path) for path in large]))
+    with tempfile.TemporaryDirectory() as scratch:
+        one = Path(scratch) / "photo.bmp"
+        write_photo(one, photos[0])
+        parts.append(_whole_process(one, Path(scratch) / "out"))
+        twelve = large[0] if large else Path(scratch) / "large.bmp"
+        if not large:
+            write_photo(twelve, cv2.resize(photos[0], (4032, 3024), interpolation=cv2.INTER_CUBIC))
+        parts.append(_peak_memory(twelve))
+    if web and web.is_dir():
+        examples = [(item.photo(), item.truth()) for item in items]
+        seconds = _best(lambda: train(examples), 2)
+        parts.append(f"Training on {len(examples)} photographs, one process: {seconds:.1f} s.")
+    return "\n\n".join(parts)
+
+
+def _best(action: Callable[[], object], repeats: int = REPEATS) -> float:
+    times = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        action()
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def _ratios(photos: list[U8]) -> str:
+    detector = Detector()
+    detector.detect(photos[0])
+    ratios, stages, edges = [], [], []
+    for photo in photos:
+        grey = cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY)
+        canny = _best(lambda image=grey: cv2.Canny(image, 50, 220))
+        ratios.append(_best(lambda image=photo: detector.detect(image)) / canny)
+        detection = detector.detect(photo)
+        stages.append({name: value / canny for name, value in detection.seconds.items()})
+        edges.append(len(detection.edge_rows))
+    medians = {name: statistics.median(one[name] for one in stages) for name in stages[0]}
+    table = markdown(
+        ["", "whole detection", *medians],
+        [["multiple of Canny", f"**{statistics.median(ratios):.1f}**"]
+         + [f"{value:.1f}" for value in medians.values()]],
+    )  # fmt: skip
+    return (
+        "A detection against `cv2.Canny` on the same photo in grey, same process, fastest of "
+        f"{REPEATS} each, median over the photos (range {min(ratios):.1f} to {max(ratios):.1f}; "
+        f"median {statistics.median(edges):,.0f} edge pixels):\n\n{table}"
+    )
+
+
+def _growth(photos: list[U8], large: list[U8]) -> str:
+    detector = Detector()
+    small = statistics.median(
+        _best(lambda p=p: detector.detect(p), 3) / p[..., 0].size for p in photos
+    )
+    rows = [[f"{photos[0].shape[1]}x{photos[0].shape[0]}", "1.00"]]
+    if not large:
+        large = [cv2.resize(photos[0], (4032, 3024), interpolation=cv2.INTER_CUBIC)]
+    by_size: dict[str, list[float]] = {}
+    for photo in large:
+        each = _best(lambda p=photo: detector.detect(p), 2) / photo[..., 0].size
+        by_size.setdefault(f"{photo.shape[1]}x{photo.shape[0]}", []).append(each / small)
+    rows += [[size, f"{statistics.median(found):.2f}"] for size, found in sorted(by_size.items())]
+    return "Time a pixel, relative to the smallest:\n\n" + markdown(["size", "time a pixel"], rows)
+
+
+def _whole_process(photo: Path, out: Path) -> str:
+    detect = ["detect", str(photo), "--out", str(out)]
+    _run(detect)  # compiles, where this is the first run
+    seconds = [
+        statistics.median(_best(lambda words=words: _run(words), 1) for _ in range(5))
+        for words in (detect, ["--help"])
+    ]
+    return (
+        f"Whole processes, median of 5: `skyline-viz detect` on one photo {seconds[0]:.2f} s, "
+        f"`skyline-viz --help` {seconds[1]:.2f} s."
+    )
+
+
+def _run(words: list[str]) -> None:
+    command = [sys.executable, "-m", "skyline_viz", *words]
+    subprocess.run(command, check=True, capture_output=True)
+
+
+def _peak_memory(photo: Path) -> str:
+    done = subprocess.run(
+        [sys.executable, "-c", _PEAK, str(photo)],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    unit = 1 if sys.platform == "darwin" else 1024
+    height, width = read_photo(photo).shape[:2]
+    return (
+        f"Peak memory of a process that reads and detects one photo of {width}x{height}: "
+        f"{int(done.stdout) * unit / 1e6:.0f} MB."
+    )

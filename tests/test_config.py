@@ -1,0 +1,152 @@
+"""Settings: defaults, the published ones, and values that are refused by name."""
+
+from dataclasses import FrozenInstanceError, fields, replace
+
+import numpy as np
+import pytest
+
+from skyline_viz.bins import Bins
+from skyline_viz.config import FILTER_SIZES, DetectorConfig, TrainingConfig
+
+RANGES = {
+    "low_threshold": (0, 220),
+    "high_threshold": (50, 1e5),
+    "frame": (0, 10_000),
+    "v": (0, 1),
+    "strength_percentile": (1, 100),
+    "non_edge_cost": (0, 1e6),
+    "clear_sky": (0, 1e3),
+    "terrain_weight": (0, 1e3),
+    "delta": (0, 100_000),
+    "link_weight": (0, 1e6),
+}
+
+
+def test_defaults_find_colour_edges_and_clear_skies():
+    config = DetectorConfig()
+    assert config.edge_source == "colour"
+    assert config.fit_thresholds
+    assert (config.low_threshold, config.high_threshold) == (50, 220)
+    assert config.v == 0.5
+    assert config.clear_sky > 0
+    assert config.terrain_weight > 0
+    assert config.delta > 1
+    assert config.non_edge_cost > 1
+
+
+def test_the_published_settings():
+    assert DetectorConfig.paper() == DetectorConfig(
+        edge_source="grey",
+        low_threshold=50,
+        high_threshold=220,
+        fit_thresholds=False,
+        frame=0,
+        v=0.5,
+        strength_percentile=100,
+        non_edge_cost=3,
+        clear_sky=0,
+        terrain_weight=0,
+        delta=1,
+        link_weight=0,
+    )
+
+
+def test_every_number_has_a_range():
+    numbers = {field.name for field in fields(DetectorConfig)} - {"edge_source", "fit_thresholds"}
+    assert set(RANGES) == numbers
+
+
+@pytest.mark.parametrize("name", RANGES)
+def test_both_ends_of_a_range_are_accepted(name):
+    for value in RANGES[name]:
+        assert getattr(DetectorConfig(**{name: value}), name) == value
+
+
+BAD = [-1, -0.001, 1e9, np.nan, np.inf, -np.inf, None, "1", True, [1]]
+
+
+@pytest.mark.parametrize("value", BAD, ids=repr)
+@pytest.mark.parametrize("name", RANGES)
+def test_values_that_are_refused_by_name(name, value):
+    with pytest.raises(ValueError, match=rf"^{name} is a number from .* not "):
+        DetectorConfig(**{name: value})
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("v", 1.001), ("strength_percentile", 100.5), ("strength_percentile", 0)]
+)
+def test_shares_end_at_one(name, value):
+    with pytest.raises(ValueError, match=name):
+        DetectorConfig(**{name: value})
+
+
+@pytest.mark.parametrize("name", ["delta", "frame"])
+@pytest.mark.parametrize("value", [1.0, 2.5])
+def test_pixels_are_whole_numbers(name, value):
+    with pytest.raises(ValueError, match=f"{name} is a whole number, not {value}"):
+        DetectorConfig(**{name: value})
+
+
+@pytest.mark.parametrize("source", ["gray", "color", "", None, "Grey"])
+def test_other_edge_sources_are_refused(source):
+    with pytest.raises(ValueError, match="edge_source is 'grey' or 'colour'"):
+        DetectorConfig(edge_source=source)
+
+
+def test_thresholds_are_in_order():
+    with pytest.raises(ValueError, match="low_threshold is at most high_threshold"):
+        DetectorConfig(low_threshold=100, high_threshold=99)
+    assert DetectorConfig(low_threshold=99, high_threshold=99).low_threshold == 99
+
+
+@pytest.mark.parametrize("config", [DetectorConfig, TrainingConfig, Bins])
+def test_unknown_settings_are_refused_by_name(config):
+    with pytest.raises(TypeError, match="lambda_weight"):
+        config(lambda_weight=1)
+
+
+@pytest.mark.parametrize("config", [DetectorConfig(), TrainingConfig(), Bins()], ids=repr)
+def test_settings_are_frozen_and_comparable(config):
+    name = fields(config)[0].name
+    with pytest.raises(FrozenInstanceError):
+        setattr(config, name, getattr(config, name))
+    assert replace(config) == config
+    assert hash(replace(config)) == hash(config)
+
+
+def test_replacing_checks_too():
+    with pytest.raises(ValueError, match="delta"):
+        replace(DetectorConfig(), delta=-3)
+
+
+# Training
+
+
+def test_training_defaults():
+    config = TrainingConfig()
+    assert config.bins == Bins()
+    assert config.filter_size == 7
+    assert config.detector == DetectorConfig()
+
+
+@pytest.mark.parametrize("size", FILTER_SIZES)
+def test_filter_sizes(size):
+    assert TrainingConfig(filter_size=size).filter_size == size
+    assert size % 2 == 1
+
+
+@pytest.mark.parametrize("size", [0, 1, 2, 6, 8, 17, -7, None, "7"])
+def test_other_filter_sizes_are_refused(size):
+    with pytest.raises(ValueError, match=f"filter_size is one of .* not {size}"):
+        TrainingConfig(filter_size=size)
+
+
+@pytest.mark.parametrize("name", ["band", "smoothness"])
+@pytest.mark.parametrize("value", [-1, np.nan, np.inf])
+def test_other_weights_are_refused(name, value):
+    with pytest.raises(ValueError, match=name):
+        TrainingConfig(**{name: value})
+
+
+def test_weights_of_zero():
+    assert TrainingConfig(band=0, smoothness=0).smoothness == 0

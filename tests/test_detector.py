@@ -1,0 +1,355 @@
+"""The detector as a whole: every field it returns, what it finds, and what it must survive."""
+
+import pickle
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import FrozenInstanceError, replace
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from skyline_viz.config import DetectorConfig
+from skyline_viz.cost import edge_cost, normalised
+from skyline_viz.detector import Detector, candidate_edges
+from skyline_viz.edges import edge_pixels, to_grey
+from skyline_viz.filter_bank import FilterBank
+from skyline_viz.metrics import a_err
+from skyline_viz.path import margins, path_tables
+from skyline_viz.score import score_at
+from skyline_viz.skyline import Skyline
+from skyline_viz.tensor import tensor_at
+
+STEADY = settings(deadline=None, derandomize=True, max_examples=25)
+CONFIGS = {"default": DetectorConfig(), "paper": DetectorConfig.paper()}
+BOTH = pytest.mark.parametrize("config", CONFIGS.values(), ids=CONFIGS)
+
+STAGES = ("skyline", "edges", "edge_rows", "edge_columns", "strength", "coherence")
+STAGES += ("orientation", "bins", "scores", "cost", "path_cost", "thresholds")
+
+
+def mountains(height=120, width=180, seed=0):
+    """Photo of a rugged ridge with rocks below a hazy sky, and its true skyline."""
+    rng = np.random.default_rng(seed)
+    columns = np.arange(width)
+    rows = height * 0.45 + 0.1 * height * np.sin(columns / 19 + seed)
+    rows += 0.05 * height * np.sin(columns / 7 + 2 * seed)
+    truth = Skyline(np.round(rows))
+    sky = np.linspace((110, 150, 220), (200, 215, 235), height)[:, None]
+    rocks = cv2.resize(rng.uniform(30, 110, (height // 6, width // 6)), (width, height))
+    terrain = rocks[:, :, None] * (1.0, 0.95, 0.8)
+    photo = np.where(truth.to_mask(height)[:, :, None], sky, terrain)
+    photo = cv2.GaussianBlur(photo, (0, 0), 0.6) + rng.normal(0, 1, photo.shape)
+    return np.clip(photo, 0, 255).astype(np.uint8), truth
+
+
+def random_photo(height, width, seed=0):
+    return np.random.default_rng(seed).integers(0, 256, (height, width, 3), dtype=np.uint8)
+
+
+@pytest.fixture(scope="module")
+def detector():
+    return Detector()
+
+
+def margins_of(detection):
+    config = detection.config
+    tables = path_tables(detection.cost, config.delta, config.link_weight)
+    return margins(tables.min_marginals)
+
+
+def assert_same(one, other):
+    for stage in STAGES:
+        first, second = getattr(one, stage), getattr(other, stage)
+        if isinstance(first, np.ndarray):
+            assert np.array_equal(first, second), stage
+        else:
+            assert first == second, stage
+
+
+# What a detection holds
+
+
+@BOTH
+def test_every_field_has_its_shape_type_and_range(config):
+    photo, _ = mountains()
+    detection = Detector(config=config).detect(photo)
+    height, width = photo.shape[:2]
+    count = len(detection.edge_rows)
+    assert count > 100
+    assert np.array_equal(detection.photo, photo)
+    assert detection.skyline.rows.shape == (width,)
+    assert detection.skyline.rows.dtype == np.float32
+    assert detection.skyline.visible.all()
+    assert (detection.skyline.rows % 1 == 0).all()
+    assert 0 <= detection.skyline.rows.min() <= detection.skyline.rows.max() <= height - 1
+    for name, shape, dtype, low, high in (
+        ("edges", (height, width), np.bool_, 0, 1),
+        ("edge_rows", (count,), np.int32, 0, height - 1),
+        ("edge_columns", (count,), np.int32, 0, width - 1),
+        ("strength", (count,), np.float32, 0, np.inf),
+        ("coherence", (count,), np.float32, 0, 1),
+        ("orientation", (count,), np.float32, 0, 180 - 1e-5),
+        ("bins", (count,), np.int32, 0, detection.bank.bins.count - 1),
+        ("scores", (count,), np.float32, 0, 1),
+        ("cost", (height, width), np.float32, -np.inf, np.inf),
+    ):
+        array = getattr(detection, name)
+        assert array.shape == shape, name
+        assert array.dtype == dtype, name
+        assert low <= array.min() <= array.max() <= high, name
+    assert isinstance(detection.path_cost, float)
+    assert np.isfinite(detection.cost).all()
+    assert detection.config is config
+    assert detection.bank.bins.count == 288
+    assert 0 < detection.thresholds[0] <= config.low_threshold
+    assert 0 < detection.thresholds[1] <= config.high_threshold
+
+
+def test_every_stage_is_timed(detector):
+    detection = detector.detect(mountains()[0])
+    assert list(detection.seconds) == ["edges", "tensor", "bins", "score", "cost", "path"]
+    assert all(seconds >= 0 for seconds in detection.seconds.values())
+    assert detection.total_seconds == pytest.approx(sum(detection.seconds.values()))
+
+
+@BOTH
+def test_stages_follow_from_each_other(config):
+    photo, _ = mountains(seed=2)
+    detection = Detector(config=config).detect(photo)
+    edges, thresholds = candidate_edges(photo, config)
+    assert np.array_equal(detection.edges, edges)
+    assert detection.thresholds == thresholds
+    rows, columns = edge_pixels(edges)
+    assert np.array_equal(detection.edge_rows, rows)
+    assert np.array_equal(detection.edge_columns, columns)
+    tensor = tensor_at(photo, rows, columns)
+    assert np.array_equal(detection.strength, tensor.strength)
+    assert np.array_equal(detection.coherence, tensor.coherence)
+    assert np.array_equal(detection.orientation, tensor.orientation)
+    assert np.array_equal(detection.bins, detection.bank.bins.of(tensor))
+    scores = score_at(to_grey(photo), rows, columns, detection.bins, detection.bank.filters)
+    assert np.array_equal(detection.scores, scores)
+
+
+def test_the_papers_cost_is_the_fusion_of_score_and_strength():
+    config = replace(DetectorConfig.paper(), v=0.3, strength_percentile=80)
+    detection = Detector(config=config).detect(mountains()[0])
+    strength = normalised(detection.strength, 80)
+    fused = edge_cost(detection.scores, strength, 0.3)
+    found = detection.cost[detection.edge_rows, detection.edge_columns]
+    assert np.allclose(found, fused, atol=1e-6)
+    assert (detection.cost[~detection.edges] == 3).all()
+
+
+@BOTH
+def test_the_skyline_is_the_cheapest_path(config):
+    detection = Detector(config=config).detect(mountains()[0])
+    rows = detection.skyline.rows.astype(int)
+    changes = np.abs(np.diff(rows))
+    assert changes.max() <= config.delta
+    nodes = detection.cost[rows, np.arange(len(rows))].astype(float).sum()
+    total = nodes + config.link_weight * changes.sum()
+    assert detection.path_cost == pytest.approx(total)
+    tables = path_tables(detection.cost, config.delta, config.link_weight)
+    assert detection.path_cost == pytest.approx(tables.min_marginals.min())
+
+
+def test_clear_sky_and_terrain_change_the_cost():
+    photo, _ = mountains()
+    plain = replace(DetectorConfig(), clear_sky=0, terrain_weight=0)
+    without = Detector(config=plain).detect(photo).cost
+    cleared = Detector(config=replace(plain, clear_sky=0.05)).detect(photo).cost
+    added = cleared - without
+    assert (added >= 0).all()
+    assert (np.diff(added, axis=0) >= -1e-5).all()
+    assert added[-1].min() > 0
+    light, heavy = (
+        Detector(config=replace(plain, terrain_weight=weight)).detect(photo).cost - without
+        for weight in (1, 4)
+    )
+    assert np.abs(light).max() > 0.05
+    assert np.allclose(heavy, 4 * light, atol=1e-4)
+
+
+def test_a_detection_is_frozen(detector):
+    detection = detector.detect(random_photo(20, 30))
+    with pytest.raises(FrozenInstanceError):
+        detection.edges = None
+    with pytest.raises(FrozenInstanceError):
+        detector.config = DetectorConfig.paper()
+
+
+# What it finds
+
+
+@BOTH
+@pytest.mark.parametrize("seed", range(4))
+def test_a_simple_ridge_is_found_within_a_pixel(config, seed):
+    height, width = 110, 170
+    columns = np.arange(width)
+    rows = np.round(50 + 12 * np.sin(columns / 21 + seed) + 4 * np.sin(columns / 9 + seed))
+    truth = Skyline(rows)
+    photo = np.where(truth.to_mask(height)[:, :, None], (170, 195, 230), (70, 75, 60))
+    photo = cv2.GaussianBlur(photo.astype(np.uint8), (0, 0), 0.7)
+    found = Detector(config=config).detect(photo).skyline
+    assert np.abs(found.rows - truth.rows).max() <= 1
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_textured_mountain_is_found(detector, seed):
+    photo, truth = mountains(seed=seed)
+    assert a_err(detector.detect(photo).skyline, truth) < 1
+
+
+def test_a_steep_peak_is_followed_as_far_as_delta_allows():
+    height, width = 150, 100
+    rows = 120 - np.clip(120 - 3 * np.abs(np.arange(width) - 50), 0, 100)
+    truth = Skyline(rows)
+    photo = np.where(truth.to_mask(height)[:, :, None], (170, 195, 230), (70, 75, 60))
+    photo = photo.astype(np.uint8)
+    assert a_err(Detector().detect(photo).skyline, truth) < 1.5
+    assert a_err(Detector(config=DetectorConfig.paper()).detect(photo).skyline, truth) > 3
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_flipped_photo_has_a_flipped_skyline(detector, seed):
+    photo, _ = mountains(seed=seed)
+    here = detector.detect(photo)
+    there = detector.detect(photo[:, ::-1])
+    assert np.abs(there.skyline.rows[::-1] - here.skyline.rows).mean() < 0.5
+    assert there.path_cost == pytest.approx(here.path_cost, rel=0.03)
+
+
+# What it must survive
+
+
+@BOTH
+@pytest.mark.parametrize("value", [0, 60, 128, 255])
+@pytest.mark.parametrize("shape", [(40, 60), (41, 7), (7, 90)])
+def test_without_an_edge_the_line_is_level_and_nothing_is_sure(config, value, shape):
+    detection = Detector(config=config).detect(np.full((*shape, 3), value, np.uint8))
+    assert not detection.edges.any()
+    assert set(detection.skyline.rows.tolist()) == {shape[0] // 2}
+    assert (detection.cost == config.non_edge_cost).all()
+    for name in ("edge_rows", "strength", "coherence", "orientation", "bins", "scores"):
+        assert getattr(detection, name).shape == (0,)
+    if shape[0] > 20:
+        assert margins_of(detection).tolist() == [0] * shape[1]
+
+
+@BOTH
+@pytest.mark.parametrize(
+    "shape",
+    [(2, 2), (2, 3), (3, 2), (3, 3), (4, 4), (5, 300), (300, 5), (2, 50), (50, 2), (9, 9), (17, 8)],
+)
+def test_tiny_photos(config, shape):
+    for photo in (random_photo(*shape), np.zeros((*shape, 3), np.uint8)):
+        detection = Detector(config=config).detect(photo)
+        assert detection.skyline.width == shape[1]
+        assert detection.cost.shape == shape
+        assert 0 <= detection.skyline.rows.min() <= detection.skyline.rows.max() < shape[0]
+
+
+@STEADY
+@given(st.integers(2, 40), st.integers(2, 40), st.integers(0, 2**32 - 1))
+def test_photos_of_any_size(height, width, seed):
+    detection = Detector().detect(random_photo(height, width, seed))
+    assert detection.skyline.width == width
+    assert np.isfinite(detection.cost).all()
+
+
+@pytest.mark.parametrize("chosen", [{"frame": 10_000}, {"delta": 100_000}, {"v": 0}, {"v": 1}])
+def test_extreme_settings(chosen):
+    detection = Detector(config=DetectorConfig(**chosen)).detect(mountains(40, 60)[0])
+    assert detection.skyline.width == 60
+    assert detection.edges.any() == (chosen.get("frame") is None)
+
+
+def test_thresholds_of_zero():
+    config = DetectorConfig(low_threshold=0, high_threshold=0)
+    assert Detector(config=config).detect(mountains(40, 60)[0]).edges.any()
+
+
+VIEWS = {
+    "flipped": lambda photo: photo[:, ::-1],
+    "upside down": lambda photo: photo[::-1],
+    "other channels": lambda photo: photo[:, :, ::-1],
+    "every second pixel": lambda photo: photo[::2, 1::2],
+    "crop": lambda photo: photo[7:90, 11:150],
+    "transposed": lambda photo: photo.transpose(1, 0, 2),
+    "columns first in memory": np.asfortranarray,
+}
+
+
+@pytest.mark.parametrize("view", VIEWS.values(), ids=VIEWS)
+def test_views_are_seen_like_copies(detector, view):
+    seen = view(mountains()[0])
+    assert not seen.flags.c_contiguous
+    assert_same(detector.detect(seen), detector.detect(seen.copy(order="C")))
+
+
+def test_the_photo_is_left_alone(detector):
+    photo, _ = mountains()
+    before = photo.copy()
+    detector.detect(photo)
+    assert np.array_equal(photo, before)
+    photo.setflags(write=False)
+    assert_same(detector.detect(photo), detector.detect(before))
+
+
+@pytest.mark.parametrize(
+    ("photo", "error", "message"),
+    [
+        (np.zeros((9, 9, 3)), TypeError, "uint8 array .* not float64"),
+        (np.zeros((9, 9, 3), np.int8), TypeError, "not int8"),
+        ([[[0, 0, 0]]], TypeError, "not list"),
+        (None, TypeError, "not NoneType"),
+        (np.zeros((9, 9), np.uint8), ValueError, r"\(H, W, 3\), not \(9, 9\)"),
+        (np.zeros((9, 9, 4), np.uint8), ValueError, r"not \(9, 9, 4\)"),
+        (np.zeros((1, 9, 9, 3), np.uint8), ValueError, "shape"),
+        (np.zeros((0, 9, 3), np.uint8), ValueError, "at least 2 by 2 pixels, not 9x0"),
+        (np.zeros((9, 1, 3), np.uint8), ValueError, "not 1x9"),
+    ],
+)
+def test_what_is_no_photo_is_refused(detector, photo, error, message):
+    with pytest.raises(error, match=message):
+        detector.detect(photo)
+
+
+# Repeating, sharing, sending
+
+
+def test_the_same_photo_gives_the_same_detection(detector):
+    photo, _ = mountains()
+    assert_same(detector.detect(photo), detector.detect(photo))
+    assert_same(detector.detect(photo), Detector().detect(photo.copy()))
+
+
+def test_threads_share_a_detector(detector):
+    photos = [mountains(seed=seed)[0] for seed in range(4)]
+    expected = [detector.detect(photo) for photo in photos]
+    with ThreadPoolExecutor(4) as threads:
+        found = list(threads.map(detector.detect, photos * 4))
+    assert len(found) == 16
+    for index, detection in enumerate(found):
+        assert_same(detection, expected[index % 4])
+
+
+def test_a_detector_can_be_sent_to_another_process(detector):
+    photo, _ = mountains()
+    sent = pickle.loads(pickle.dumps(detector))
+    assert sent.config == detector.config
+    assert np.array_equal(sent.bank.filters, detector.bank.filters)
+    assert_same(sent.detect(photo), detector.detect(photo))
+
+
+def test_the_given_bank_scores():
+    photo, _ = mountains()
+    bank = FilterBank.default()
+    silent = replace(bank, filters=np.zeros_like(bank.filters))
+    detection = Detector(silent).detect(photo)
+    assert not detection.scores.any()
+    assert detection.bank is silent
+    assert Detector(bank).detect(photo).scores.any()
