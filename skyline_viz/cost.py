@@ -1,5 +1,6 @@
 """Stage 5, cost: scores and gradient strength fused into the nodal cost of every pixel."""
 
+import cv2
 import numba
 import numpy as np
 
@@ -34,16 +35,12 @@ def edge_cost(scores: F32, strength: F32, v: float) -> F32:
     return cost
 
 
-def nodal_cost(
-    edges: Bool, rows: Int, columns: Int, at_edges: F32, non_edge: float, clear_sky: float
-) -> F32:
+def nodal_cost(edges: Bool, at_edges: F32, non_edge: float, clear_sky: float) -> F32:
     """Nodal cost of every pixel.
 
     Args:
         edges: ``(H, W)`` edge map.
-        rows: ``(n,)`` rows of the edge pixels.
-        columns: ``(n,)`` columns of the edge pixels.
-        at_edges: ``(n,)`` cost of the edge pixels.
+        at_edges: ``(n,)`` cost of the edge pixels, row by row.
         non_edge: Cost of all other pixels.
         clear_sky: What each edge pixel above a pixel in its column adds to its cost; nothing but
             sky lies above a skyline.
@@ -51,11 +48,11 @@ def nodal_cost(
     Returns:
         ``(H, W)`` float32, a transposed view: the path search goes down columns.
     """
-    height, width = edges.shape
-    cost = np.full((width, height), non_edge, np.float32)
-    cost[columns, rows] = at_edges
+    across = np.full(edges.shape, non_edge, np.float32)
+    across[edges] = at_edges
+    cost: F32 = cv2.transpose(across)  # by tiles: numpy's own copy of a transpose misses the cache
     if clear_sky > 0:
-        _add_clear_sky(cost, np.ascontiguousarray(edges.T).view(np.uint8), np.float32(clear_sky))
+        _add_clear_sky(cost, cv2.transpose(edges.view(np.uint8)), np.float32(clear_sky))
     return cost.T
 
 

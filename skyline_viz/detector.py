@@ -121,9 +121,7 @@ class Detector:
         with _timed(seconds, "cost"):
             strength = normalised(tensor.strength, config.strength_percentile)
             at_edges = edge_cost(scores, strength, config.v)
-            cost = nodal_cost(
-                edges, rows, columns, at_edges, config.non_edge_cost, config.clear_sky
-            )
+            cost = nodal_cost(edges, at_edges, config.non_edge_cost, config.clear_sky)
             if config.terrain_weight and len(rows):  # without edges, every line is a guess
                 above = terrain_above(photo, edges, bank.terrain)
                 add_blocks(cost, above, config.terrain_weight, BLOCK)

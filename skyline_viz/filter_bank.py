@@ -7,6 +7,7 @@ import zipfile
 import zlib
 from dataclasses import asdict, dataclass, field
 from importlib import resources
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -131,7 +132,8 @@ class FilterBank:
             FilterBankError: Missing, damaged, another kind of file, or of a newer version.
         """
         try:
-            with np.load(path, allow_pickle=False) as archive:
+            # np.load, given a path, leaves damaged files open
+            with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as archive:
                 if not isinstance(archive, np.lib.npyio.NpzFile) or "header" not in archive:
                     raise FilterBankError(f"{path} is not a filter bank.")
                 header = json.loads(archive["header"].tobytes())

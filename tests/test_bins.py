@@ -141,11 +141,12 @@ def test_mirroring_turns_the_orientation_alone():
 )
 @pytest.mark.parametrize("seed", range(3))
 def test_mirroring_is_what_flipping_a_photo_does(bins, seed):
-    photo = np.random.default_rng(seed).integers(0, 256, (40, 50, 3), dtype=np.uint8)
-    photo = cv2.GaussianBlur(photo, (0, 0), 1.2)
+    blocks = np.random.default_rng(seed).integers(0, 256, (12, 16, 3), dtype=np.uint8)
+    photo = cv2.resize(blocks, (64, 48), interpolation=cv2.INTER_NEAREST)
+    photo = cv2.GaussianBlur(photo, (0, 0), 0.5)
     here = bins.of(tensor_map(photo))
     there = bins.of(tensor_map(np.ascontiguousarray(photo[:, ::-1])))
-    assert len(np.unique(here)) > min(bins.count, 40) / 3
+    assert len(np.unique(here)) >= min(bins.count, 40) / 3
     assert np.mean(there[:, ::-1] == bins.mirrored()[here]) > 0.999
 
 

@@ -83,11 +83,6 @@ def test_other_names_are_refused():
         _ = sv.detect_everything
 
 
-def test_errors_are_value_errors():
-    for error in (sv.PhotoError, sv.SkylineError, sv.FilterBankError, sv.PathError):
-        assert issubclass(error, ValueError)
-
-
 def test_the_contract_from_photo_to_error(tmp_path):
     photo = np.full((60, 80, 3), 210, np.uint8)
     photo[33:] = (50, 60, 40)

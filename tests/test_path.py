@@ -1,7 +1,7 @@
 """The path search against brute force: optimum, ties, tables, margins and constraints."""
 
 from fractions import Fraction
-from itertools import pairwise, product
+from itertools import product
 from math import floor
 
 import numpy as np
@@ -275,74 +275,6 @@ def test_straight_spans_against_brute_force(cost, delta, link_weight, data):
     check_against(cost, delta, link_weight, Constraints(straight=spans))
 
 
-def test_a_path_passes_through_its_anchors():
-    cost = np.ones((30, 40), np.float32)
-    anchors = (Anchor(0, 3), Anchor(20, 25), Anchor(39, 12))
-    path = shortest_path(cost, 2, 0.1, Constraints(anchors=anchors))
-    assert [path.rows[anchor.column] for anchor in anchors] == [3, 25, 12]
-    assert np.abs(np.diff(path.rows)).max() == 2
-
-
-def test_anchors_in_any_order_and_twice():
-    cost = np.ones((8, 8), np.float32)
-    one = Constraints(anchors=(Anchor(6, 2), Anchor(1, 5), Anchor(6, 2)))
-    other = Constraints(anchors=(Anchor(1, 5), Anchor(6, 2)))
-    assert np.array_equal(
-        shortest_path(cost, 1, 0.5, one).rows, shortest_path(cost, 1, 0.5, other).rows
-    )
-
-
-def test_a_path_leaves_forbidden_pixels_alone():
-    cost = np.ones((20, 30), np.float32)
-    cost[10] = 0
-    forbidden = np.zeros(cost.shape, bool)
-    forbidden[8:, 12:18] = True
-    path = shortest_path(cost, 3, 0, Constraints(forbidden=forbidden))
-    assert not forbidden[path.rows, np.arange(30)].any()
-    assert path.rows[[0, 29]].tolist() == [10, 10]
-
-
-def test_a_straight_span_is_steeper_than_delta_only_where_it_is():
-    cost = np.ones((60, 30), np.float32)
-    span = StraightSpan(Anchor(10, 5), Anchor(14, 45))
-    path = shortest_path(cost, 1, 0, Constraints(straight=(span,)))
-    assert path.rows[10:15].tolist() == [5, 15, 25, 35, 45]
-    outside = np.abs(np.diff(path.rows))
-    outside[10:14] = 0
-    assert outside.max() <= 1
-    assert path.cost == 30
-
-
-@pytest.mark.parametrize("steepness", [-7, -1, 0, 1, 3])
-def test_rows_of_a_straight_span(steepness):
-    span = StraightSpan(Anchor(3, 40), Anchor(8, 40 + steepness))
-    assert list(zip(range(3, 9), span.rows().tolist(), strict=True)) == straight_line(span)
-
-
-def test_spans_that_share_an_end():
-    middle = Anchor(4, 9)
-    spans = (StraightSpan(Anchor(0, 1), middle), StraightSpan(middle, Anchor(8, 5)))
-    path = shortest_path(np.ones((12, 9)), 0, 0, Constraints(straight=spans))
-    assert path.rows.tolist() == [1, 3, 5, 7, 9, 8, 7, 6, 5]
-
-
-def test_link_costs_inside_a_straight_span():
-    span = StraightSpan(Anchor(0, 0), Anchor(2, 8))
-    path = shortest_path(np.ones((9, 3)), 1, 0.5, Constraints(straight=(span,)))
-    assert path.cost == 3 + 8 * 0.5
-
-
-def test_constraints_leave_their_inputs_alone():
-    cost = np.ascontiguousarray(np.ones((9, 7), np.float32).T).T
-    forbidden = np.zeros(cost.shape, bool)
-    forbidden[4] = True
-    asked = Constraints((Anchor(3, 2),), (StraightSpan(Anchor(4, 3), Anchor(6, 1)),), forbidden)
-    shortest_path(cost, 1, 0, asked)
-    path_tables(cost, 1, 0, asked)
-    assert (cost == 1).all()
-    assert forbidden.sum() == 7
-
-
 # What is refused
 
 
@@ -374,80 +306,3 @@ def test_a_column_of_infinite_costs_admits_no_path(find, column):
     cost[:, column] = INF
     with pytest.raises(PathError, match="from the left edge to the right edge"):
         find(cost, 1, 0)
-
-
-def test_a_wall_between_anchors_is_told_with_both():
-    forbidden = np.zeros((9, 20), bool)
-    forbidden[:, 10] = True
-    anchors = (Anchor(15, 4), Anchor(2, 4), Anchor(18, 4), Anchor(6, 5))
-    with pytest.raises(PathError) as caught:
-        shortest_path(np.ones((9, 20)), 3, 0, Constraints(anchors=anchors, forbidden=forbidden))
-    told = str(caught.value)
-    assert "from the anchor at column 6, row 5 to the anchor at column 15, row 4" in told
-
-
-def test_anchors_too_steep_for_delta_are_both_named():
-    anchors = tuple(Anchor(column, row) for column, row in [(0, 5), (3, 5), (6, 14), (9, 14)])
-    with pytest.raises(PathError) as caught:
-        shortest_path(np.ones((20, 10)), 2, 0, Constraints(anchors=anchors))
-    assert "from the anchor at column 3, row 5 to the anchor at column 6, row 14" in str(
-        caught.value
-    )
-    assert shortest_path(np.ones((20, 10)), 3, 0, Constraints(anchors=anchors)).cost == 10
-
-
-@pytest.mark.parametrize(("column", "row"), [(-1, 2), (5, 2), (2, -1), (2, 4)])
-def test_an_anchor_outside_is_refused(column, row):
-    told = f"the anchor at column {column}, row {row} lies outside the photo of 5x4 pixels"
-    with pytest.raises(PathError, match=told):
-        shortest_path(np.ones((4, 5)), 1, 0, Constraints(anchors=(Anchor(column, row),)))
-
-
-def test_two_anchors_in_one_column_are_both_named():
-    anchors = (Anchor(2, 1), Anchor(2, 3))
-    with pytest.raises(PathError) as caught:
-        shortest_path(np.ones((4, 5)), 4, 0, Constraints(anchors=anchors))
-    for anchor in anchors:
-        assert str(anchor) in str(caught.value)
-
-
-def test_an_anchor_beside_a_straight_span_is_refused_and_both_are_named():
-    asked = Constraints((Anchor(3, 5),), (StraightSpan(Anchor(0, 0), Anchor(8, 8)),))
-    with pytest.raises(PathError, match="column 3, row 5 and the anchor at column 0, row 0"):
-        shortest_path(np.ones((9, 9)), 1, 0, asked)
-
-
-def test_an_anchor_on_a_forbidden_pixel_is_refused():
-    forbidden = np.zeros((4, 5), bool)
-    forbidden[1, 2] = True
-    asked = Constraints(anchors=(Anchor(2, 1),), forbidden=forbidden)
-    with pytest.raises(PathError, match=r"column 2, row 1 lies on a forbidden pixel"):
-        shortest_path(np.ones((4, 5)), 1, 0, asked)
-
-
-def test_a_straight_span_over_a_forbidden_pixel_says_where():
-    forbidden = np.zeros((9, 9), bool)
-    forbidden[3, 3] = True
-    spans = (StraightSpan(Anchor(0, 0), Anchor(8, 8)),)
-    asked = Constraints(straight=spans, forbidden=forbidden)
-    with pytest.raises(PathError, match="forbidden pixel, row 3 of column 3"):
-        shortest_path(np.ones((9, 9)), 1, 0, asked)
-
-
-@pytest.mark.parametrize("end", [3, 2])
-def test_a_straight_span_ends_right_of_its_start(end):
-    asked = Constraints(straight=(StraightSpan(Anchor(3, 1), Anchor(end, 1)),))
-    with pytest.raises(PathError, match="right of its start, the anchor at column 3, row 1"):
-        shortest_path(np.ones((4, 5)), 1, 0, asked)
-
-
-def test_forbidden_pixels_of_another_photo_are_refused():
-    asked = Constraints(forbidden=np.zeros((5, 4), bool))
-    with pytest.raises(PathError, match=r"forbidden has the shape \(5, 4\).*\(4, 5\)"):
-        shortest_path(np.ones((4, 5)), 1, 0, asked)
-
-
-def test_anchors_are_sorted_by_column():
-    points = [Anchor(4, 0), Anchor(1, 9), Anchor(1, 2)]
-    assert sorted(points) == [Anchor(1, 2), Anchor(1, 9), Anchor(4, 0)]
-    assert all(one < other for one, other in pairwise(sorted(points)))

@@ -1,0 +1,79 @@
+"""The built wheel works by itself in an empty environment."""
+
+import csv
+import os
+import subprocess
+import sys
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("wheel")
+    command = ["-m", "build", "--wheel", "--no-isolation", "--outdir", str(folder), str(ROOT)]
+    subprocess.run([sys.executable, *command], check=True, capture_output=True)
+    (built,) = folder.glob("*.whl")
+    return built
+
+
+@pytest.fixture(scope="module")
+def installed(wheel, tmp_path_factory):
+    """Folder of the programs of an environment that holds nothing but the wheel and its needs."""
+    folder = tmp_path_factory.mktemp("environment")
+    venv.create(folder, with_pip=True)
+    programs = folder / ("Scripts" if os.name == "nt" else "bin")
+    locked = ["--constraint", str(ROOT / "requirements-dev.txt")]
+    pip = [str(programs / "python"), "-m", "pip", "--disable-pip-version-check", "--quiet"]
+    subprocess.run([*pip, "install", *locked, str(wheel)], check=True, capture_output=True)
+    return programs
+
+
+def run(program, *arguments, cwd):
+    clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    command = [str(program), *map(str, arguments)]
+    return subprocess.run(
+        command, cwd=cwd, env=clean, capture_output=True, text=True, check=False
+    )
+
+
+def test_the_wheel_holds_the_bank_and_the_licence_and_no_photograph(wheel):
+    names = zipfile.ZipFile(wheel).namelist()
+    assert "skyline_viz/filter_bank.npz" in names
+    assert "skyline_viz/py.typed" in names
+    assert any(name.endswith("LICENSE") for name in names)
+    assert not any(name.endswith((".jpg", ".bmp", ".png")) for name in names)
+
+
+def test_detect_works_from_the_wheel(installed, tmp_path):
+    photo = ROOT / "sample_data" / "images" / "rover-2.jpg"
+    done = run(installed / "skyline-viz", "detect", photo, "--out", tmp_path / "out", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    with (tmp_path / "out" / "rover-2.csv").open() as file:
+        lines = list(csv.DictReader(file))
+    assert len(lines) == 960
+    assert {line["visible"] for line in lines} == {"1"}
+    assert all(60 < float(line["row"]) < 300 for line in lines)
+
+
+def test_demo_renders_its_own_samples_where_there_is_no_sample_data(installed, tmp_path):
+    done = run(installed / "skyline-viz", "demo", "--out", "shown", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "shown" / "index.html").stat().st_size > 1000
+    assert (tmp_path / "shown" / "contact_sheet.jpg").stat().st_size > 50_000
+    rebuilt = sorted((tmp_path / "shown").rglob("images/*.jpg"))
+    shipped = sorted((ROOT / "sample_data" / "images").glob("*.jpg"))
+    assert [path.name for path in rebuilt] == [path.name for path in shipped]
+    assert all(a.read_bytes() == b.read_bytes() for a, b in zip(rebuilt, shipped, strict=True))
+
+
+def test_mistakes_are_one_sentence(installed, tmp_path):
+    done = run(installed / "skyline-viz", "detect", "nowhere.jpg", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "nowhere.jpg" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,98 @@
+"""The docs name every command, option and setting that exists, and none that does not."""
+
+import contextlib
+import io
+import re
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+import skyline_viz
+from skyline_viz.bins import Bins
+from skyline_viz.cli import main
+from skyline_viz.config import DetectorConfig, TrainingConfig
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+COMMANDS = ("detect", "train", "evaluate", "render", "demo")
+
+
+def options_of(command: str) -> set[str]:
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        assert main([command, "--help"]) == 0
+    return set(re.findall(r"(?<![\w-])--[a-z][a-z.-]*[a-z]", said.getvalue()))
+
+
+def settings() -> set[str]:
+    training = {field.name for field in fields(TrainingConfig)} - {"bins", "detector"}
+    bins = {f"bins.{field.name}" for field in fields(Bins)}
+    return {field.name for field in fields(DetectorConfig)} | training | bins
+
+
+def test_the_reference_lists_exactly_the_commands_there_are():
+    reference = (ROOT / "docs" / "reference.md").read_text()
+    listed = re.findall(r"^\| `([a-z]+)[^`]*` \|", reference.split("## Settings")[0], re.MULTILINE)
+    assert listed == list(COMMANDS)
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        assert main(["--help"]) == 0
+    assert set(re.findall(r"│ {4,8}([a-z]+) {2,}", said.getvalue())) >= set(COMMANDS)
+
+
+def test_the_reference_lists_exactly_the_settings_there_are():
+    reference = (ROOT / "docs" / "reference.md").read_text().split("## Settings", 1)[1]
+    tables = reference.split("## Files")[0]
+    assert set(re.findall(r"^\| `([a-z_.]+)` \|", tables, re.MULTILINE)) == settings()
+
+
+@pytest.mark.parametrize("field", fields(DetectorConfig), ids=lambda field: field.name)
+def test_the_reference_gives_the_defaults_of_both_presets(field):
+    reference = (ROOT / "docs" / "reference.md").read_text()
+    row = re.search(rf"^\| `{field.name}` \| (\S+) \| (\S+) \|", reference, re.MULTILINE)
+    assert row is not None
+    default, paper = DetectorConfig(), DetectorConfig.paper()
+    assert row.groups() == (str(getattr(default, field.name)), str(getattr(paper, field.name)))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_option_that_a_page_names_exists(page):
+    known = set().union(*(options_of(command) for command in COMMANDS)) | {"--version"}
+    named = set(re.findall(r"(?<![\w-])--[a-z][a-z.-]*[a-z*]", page.read_text()))
+    families = {name for name in named if name.endswith("*")}
+    assert named - families <= known
+    for family in families:
+        assert any(option.startswith(family[:-1]) for option in known)
+
+
+def test_every_option_is_named_in_the_reference():
+    reference = (ROOT / "docs" / "reference.md").read_text()
+    plain = re.compile(r"--(config|training)\.")
+    for command in COMMANDS:
+        for option in options_of(command) - {"--help"}:
+            assert plain.match(option) or option in reference, (command, option)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page):
+    for target in re.findall(r"\]\(([^)#\s]+)", page.read_text()):
+        if "://" not in target:
+            assert (page.parent / target).exists(), target
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_python_examples_use_public_names_only(page):
+    for name in re.findall(r"\bsv\.([A-Za-z_]+)", page.read_text()):
+        assert name in skyline_viz.__all__, name
+
+
+def test_the_five_lines_of_the_readme_run(tmp_path, monkeypatch):
+    code = re.search(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    assert code is not None
+    source = min((ROOT / "sample_data" / "images").glob("cloudy*.jpg"))
+    (tmp_path / "photo.jpg").write_bytes(source.read_bytes())
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    exec(code[1], names)
+    assert (tmp_path / "skyline.csv").read_text().startswith("column,row,visible\n0,")
