@@ -6,7 +6,7 @@ demo: .venv/.installed-run  ## Find the skylines of the samples, or of PHOTOS=FO
 	.venv/bin/skyline-viz demo $(if $(PHOTOS),"$(PHOTOS)")
 
 test: check  ## Everything that must hold: lint, types, doctests, tests.
-	.venv/bin/python -m pytest
+	.venv/bin/python -m pytest -n auto --dist loadscope
 
 check: .venv/.installed-dev  ## Lint and types only.
 	.venv/bin/ruff check .

@@ -166,6 +166,16 @@ def test_orientations_stay_below_180_degrees():
     assert (orientation[:, 29] < 10).any()
 
 
+def test_an_angle_a_hair_below_180_degrees_is_0():
+    photo = np.zeros((20, 60, 3), np.uint8)
+    photo[:, 30:] = 255
+    photo[13, 26] = 1  # in the outermost corner of the window around row 10, column 29
+    assert slow_tensor(photo, 10, 29)[2] > 179.9999
+    sparse = tensor_at(photo, np.array([10], np.int32), np.array([29], np.int32))
+    assert sparse.orientation.tolist() == [0]
+    assert tensor_map(photo).orientation[10, 29] == 0
+
+
 @pytest.mark.parametrize("slope", range(-3, 4))
 def test_ranges(slope):
     tensor = tensor_map(np.maximum(noise(seed=9), ramp(1, slope, 17, 23)))
