@@ -8,6 +8,7 @@ import contextlib
 import io
 import os
 import sys
+import traceback
 from collections.abc import Sequence
 from typing import Annotated, Any, Protocol, Union
 
@@ -125,13 +126,9 @@ def _refusal_behind(error: BaseException) -> ValueError | None:
     """The sentence with which one of our dataclasses refused a value, where tyro stopped for it."""
     cause: BaseException | None = error
     while cause is not None:
-        frame = cause.__traceback__
-        while frame and frame.tb_next:
-            frame = frame.tb_next
-        if isinstance(cause, ValueError) and frame:
-            code = frame.tb_frame.f_code
-            if code.co_name == "__post_init__":
-                return cause
+        frames = traceback.extract_tb(cause.__traceback__)
+        if isinstance(cause, ValueError) and any(f.name == "__post_init__" for f in frames):
+            return cause
         cause = cause.__cause__ or cause.__context__
     return None
 

@@ -1,7 +1,7 @@
 """What can be chosen, with units and the reasons for the defaults. Light to import."""
 
-import math
 from dataclasses import dataclass, field
+from numbers import Integral, Real
 from typing import Literal, TypeAlias
 
 from skyline_viz.bins import Bins
@@ -36,7 +36,7 @@ class DetectorConfig:
     """Weight of the score against the gradient strength, in [0, 1] (the paper's ``v``)."""
 
     strength_percentile: float = 95.0
-    """Percentile of a photo's gradient strengths that counts as full strength, in (0, 100]."""
+    """Percentile of a photo's gradient strengths that counts as full strength, in [1, 100]."""
 
     non_edge_cost: float = 2.0
     """Nodal cost of a pixel without an edge; edge pixels cost 0 to 1."""
@@ -57,16 +57,9 @@ class DetectorConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their range with a sentence that names the field."""
         for name, low, high in _RANGES:
-            value = getattr(self, name)
-            if (
-                isinstance(value, bool)
-                or not isinstance(value, int | float)
-                or not low <= value <= high
-            ):
-                raise ValueError(f"{name} is a number from {low:g} to {high:g}, not {value!r}")
-        for name in ("frame", "delta"):
-            if not isinstance(getattr(self, name), int):
-                raise ValueError(f"{name} is a whole number, not {getattr(self, name)!r}")
+            _check_number(name, getattr(self, name), low, high, whole=name in ("frame", "delta"))
+        if not isinstance(self.fit_thresholds, bool):
+            raise ValueError(f"fit_thresholds is True or False, not {self.fit_thresholds!r}")
         if self.edge_source not in ("grey", "colour"):
             raise ValueError(f"edge_source is 'grey' or 'colour', not {self.edge_source!r}")
         if self.low_threshold > self.high_threshold:
@@ -127,7 +120,16 @@ class TrainingConfig:
 
     def __post_init__(self) -> None:
         """Refuse values outside their range with a sentence that names the field."""
+        _check_number("filter_size", self.filter_size, 3, 15, whole=True)
         if self.filter_size not in FILTER_SIZES:
             raise ValueError(f"filter_size is one of {FILTER_SIZES}, not {self.filter_size}")
-        if not (0 <= self.band < math.inf and 0 <= self.smoothness < math.inf):
-            raise ValueError("band and smoothness are finite and not negative")
+        _check_number("band", self.band, 0, 1e6)
+        _check_number("smoothness", self.smoothness, 0, 1e12)
+
+
+def _check_number(name: str, value: object, low: float, high: float, whole: bool = False) -> None:
+    """Refuse anything but a number in a range, with a sentence that names the field."""
+    kind = "whole number" if whole else "number"
+    numeric = isinstance(value, Integral if whole else Real) and not isinstance(value, bool)
+    if not (numeric and low <= value <= high):  # type: ignore[operator]  # numeric says it is one
+        raise ValueError(f"{name} is a {kind} from {low:g} to {high:g}, not {value!r}")

@@ -38,9 +38,9 @@ class StraightSpan:
 
     def rows(self) -> npt.NDArray[np.intp]:
         """Row in each of its columns, both ends included."""
-        count = self.end.column - self.start.column + 1
-        line = np.linspace(self.start.row, self.end.row, count)
-        return np.floor(line + 0.5).astype(np.intp)
+        length = self.end.column - self.start.column
+        steps = np.arange(length + 1) * (self.end.row - self.start.row)
+        return self.start.row + (2 * steps + length) // (2 * length)  # halves go down, exactly
 
 
 @dataclass(frozen=True)

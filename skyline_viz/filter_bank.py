@@ -29,6 +29,9 @@ _DAMAGE = (
 )  # what numpy, zipfile and json raise on damaged files
 
 
+_DTYPES = (np.dtype(np.float32), np.dtype(np.int64), np.dtype(np.float32))
+
+
 class FilterBankError(ValueError):
     """A filter bank, or a file that should hold one, is not valid; the message says why."""
 
@@ -146,6 +149,8 @@ class FilterBank:
                     )
                 filters, samples = archive["filters"], archive["samples"]
                 terrain = archive["terrain"]
+                if (filters.dtype, samples.dtype, terrain.dtype) != _DTYPES:
+                    raise FilterBankError(f"{path} is damaged: its arrays have other types.")
                 bins = Bins(**header["bins"])
                 provenance = Provenance(**header["provenance"])
         except FileNotFoundError:

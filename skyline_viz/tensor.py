@@ -47,9 +47,14 @@ def tensor_map(photo: U8) -> Tensor:
     sums = []
     for left, right in ((gx, gx), (gx, gy), (gy, gy)):
         product = np.add.reduce([a * b for a, b in zip(left, right, strict=True)])
-        smooth = cv2.sepFilter2D(product, -1, WINDOW, WINDOW)
-        # an even kernel is anchored at its fourth tap: value p covers the differences p-3 to p+2
-        sums.append(smooth[_REACH : _REACH + height, _REACH : _REACH + width].ravel())
+        # the very order of `_window_sums`, so that both round alike
+        across = np.zeros((height, width + 5), np.float32)
+        for tap in range(6):
+            across += WINDOW[tap] * product[tap : tap + height]
+        total = np.zeros((height, width), np.float32)
+        for tap in range(6):
+            total += WINDOW[tap] * across[:, tap : tap + width]
+        sums.append(total.ravel())
     strength, coherence, orientation = _eigen(*sums).reshape(3, height, width)
     return Tensor(strength, coherence, orientation)
 
@@ -75,7 +80,7 @@ def _padded_channels(photo: U8) -> Sequence[U8]:
     return channels
 
 
-@numba.njit(cache=True, nogil=True, fastmath=True)
+@numba.njit(cache=True, nogil=True)
 def _window_sums(
     red: U8, green: U8, blue: U8, columns: Int, order: Int, first: Int, window: F32
 ) -> F32:
