@@ -10,15 +10,11 @@ GeoPose3K  ``NAME/photo.jpg``                 ``NAME/pinhole/labels*.png``, ``NA
 plain      ``images/*``, else ``*``           in ``masks/``, ``ground_truth/`` or beside the photo
 =========  =================================  ====================================================
 
-A truth is a painted copy of the photo (one pure red or pure blue pixel a column), a mask (0 is
-sky, 255 terrain, cut at 128), or a `Skyline` in CSV or JSON; which one is told by content. It has
-the photo's name, to which ``-mask``, ``_mask`` or ``_Edge`` may be added; Basalt and Web go by
+What a truth may be says `skyline_viz.truths`. It has the photo's name, to which ``-mask``, ``_mask`` or ``_Edge`` may be added; Basalt and Web go by
 number. Several truths of a photo: the first counts, CSV and JSON before pictures.
 
-GeoPose3K's label maps are rendered from a terrain model; black, (0, 0, 0), is taken for its sky,
-and every other colour, blends at borders too, for terrain. A column without sky, or with nothing
-else, is not visible: there the skyline lies outside the picture. Its maps in ``cyl/`` are in a
-cylindrical projection, to which the photo does not fit, and are not used.
+GeoPose3K's maps in ``cyl/`` are in a cylindrical projection, to which the photo does not fit, and
+are not used.
 """
 
 import os
@@ -32,6 +28,7 @@ from typing import Literal
 from skyline_viz.arrays import U8
 from skyline_viz.photo import PhotoError, find_photos, photo_size, read_photo
 from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, read_truth
 
 Layout = Literal["Basalt", "Web", "CH1", "GeoPose3K", "plain"]
 """The published layouts, and the folder of photographs that follows none of them."""
@@ -39,7 +36,6 @@ Layout = Literal["Basalt", "Web", "CH1", "GeoPose3K", "plain"]
 _CH1_PARTS = ("cvg", "panoramio", "poor_edge_images")
 _NUMBERED = re.compile(r"(?:gt_)?(?:(marsim)|r_gimag|googleimage)(\d+)(?:_edge)?", re.IGNORECASE)
 _ADDED = re.compile(r"([-_]mask|_edge)$", re.IGNORECASE)
-_SKYLINE_SUFFIXES = (".csv", ".json")
 
 
 class DatasetError(ValueError):
@@ -76,7 +72,7 @@ class DatasetItem:
         Raises:
             SkylineError: The file is damaged, or is no truth; the message names it.
         """
-        return None if self.truth_path is None else _read_truth(self.truth_path, self.label_map)
+        return None if self.truth_path is None else read_truth(self.truth_path, self.label_map)
 
 
 @dataclass(frozen=True)
@@ -180,11 +176,11 @@ def _match(root: Path, folder: Path, prefix: str, problems: list[str]) -> list[D
         return added is not None and (_bare(file) in stems or added[1].lower() != "_edge")
 
     photos = [file for file in files if not is_truth(file)]
-    truths = [file for file in _skyline_files(images) if _begins_like_a_skyline(file)]
+    truths = [file for file in _skyline_files(images) if begins_like_a_skyline(file)]
     for place in (_folder(folder, "ground_truth"), _folder(folder, "masks")):
         truths += [*_skyline_files(place), *find_photos(place)] if place else []
     truths += [file for file in files if is_truth(file)]
-    truths.sort(key=lambda file: file.suffix.lower() not in _SKYLINE_SUFFIXES)
+    truths.sort(key=lambda file: file.suffix.lower() not in SKYLINE_SUFFIXES)
 
     matched: dict[Path, list[Path]] = {photo: [] for photo in photos}
     named: dict[str, list[list[Path]]] = {}
@@ -238,54 +234,13 @@ def _misfit(photo: Path, truth: Path) -> str | None:
     """How sizes differ; None where they agree, or where a damaged file does not tell its size."""
     try:
         height, width = photo_size(photo)
-        if truth.suffix.lower() in _SKYLINE_SUFFIXES:
-            found, wanted = f"{_read_truth(truth).width} columns", f"{width}"
+        if truth.suffix.lower() in SKYLINE_SUFFIXES:
+            found, wanted = f"{read_truth(truth).width} columns", f"{width}"
         else:
             found, wanted = "{1}x{0} pixels".format(*photo_size(truth)), f"{width}x{height}"
     except (PhotoError, SkylineError):
         return None  # told when it is read
     return None if found.split()[0] == wanted else f"has {found}, and its photo {wanted}"
-
-
-def _read_truth(path: Path, label_map: bool = False) -> Skyline:
-    try:
-        if path.suffix.lower() == ".csv":
-            return Skyline.read_csv(path)
-        if path.suffix.lower() == ".json":
-            return Skyline.read_json(path)
-        pixels = read_photo(path)
-    except PhotoError as error:
-        raise SkylineError(str(error)) from error
-    except OSError as error:
-        raise SkylineError(f"{path} cannot be read: {error.strerror}.") from error
-    try:
-        if label_map:
-            return _from_label_map(pixels)
-        grey = (pixels.max(axis=2) - pixels.min(axis=2)).max() < 32  # JPEG tints a grey mask a bit
-        return _from_mask(pixels[:, :, 1]) if grey else Skyline.from_painted(pixels)
-    except SkylineError as error:
-        raise SkylineError(f"{path} is no truth: {error}.") from error
-
-
-def _from_mask(grey: U8) -> Skyline:
-    """Skyline of a mask ``(H, W)``; refuses what would silently give a wrong truth."""
-    if 0 < grey.max() < 128:
-        raise SkylineError(f"its brightest value is {grey.max()}, and terrain is 255 in a mask")
-    terrain = grey >= 128
-    skyline = Skyline.from_mask(~terrain)
-    upside_down = terrain[0].all() and not terrain[-1].any()
-    if upside_down or (skyline.to_mask(len(grey)) == terrain).mean() > 0.2:  # a few lakes are fine
-        raise SkylineError("it is neither painted nor a mask with sky (0) above terrain (255)")
-    return skyline
-
-
-def _from_label_map(pixels: U8) -> Skyline:
-    """Skyline of a GeoPose3K label map ``(H, W, 3)``."""
-    rows = Skyline.from_mask((pixels == 0).all(axis=2)).rows
-    visible = (rows > 0) & (rows < len(pixels))
-    if not visible.any():
-        raise SkylineError("no column holds both sky (black) and terrain")
-    return Skyline(rows, visible)
 
 
 def _key(stem: str) -> str:
@@ -309,16 +264,7 @@ def _folder(parent: Path, name: str) -> Path | None:
 
 def _skyline_files(folder: Path) -> list[Path]:
     inside = (file for file in folder.iterdir() if not file.name.startswith("."))
-    return sorted(f for f in inside if f.suffix.lower() in _SKYLINE_SUFFIXES and f.is_file())
-
-
-def _begins_like_a_skyline(file: Path) -> bool:
-    """Whether a CSV or JSON among photos holds a skyline, and not something else about them."""
-    try:
-        with file.open("rb") as opened:
-            return re.search(rb"column,row,visible|skyline", opened.read(80)) is not None
-    except OSError:
-        return False
+    return sorted(f for f in inside if f.suffix.lower() in SKYLINE_SUFFIXES and f.is_file())
 
 
 def _photo_of(folder: Path) -> Path | None:
