@@ -10,8 +10,9 @@ GeoPose3K  ``NAME/photo.jpg``                 ``NAME/pinhole/labels*.png``, ``NA
 plain      ``images/*``, else ``*``           in ``masks/``, ``ground_truth/`` or beside the photo
 =========  =================================  ====================================================
 
-What a truth may be says `skyline_viz.truths`. It has the photo's name, to which ``-mask``, ``_mask`` or ``_Edge`` may be added; Basalt and Web go by
-number. Several truths of a photo: the first counts, CSV and JSON before pictures.
+What a truth may be, `skyline_viz.truths` says. It has the photo's name, to which ``-mask``,
+``_mask`` or ``_Edge`` may be added; Basalt and Web go by number. Several truths of a photo: the
+first counts, CSV and JSON before pictures.
 
 GeoPose3K's maps in ``cyl/`` are in a cylindrical projection, to which the photo does not fit, and
 are not used.

@@ -34,7 +34,8 @@ def block_features(photo: U8, edges: Bool) -> F32:
     colour = _block_means(photo)
     density = _block_means(edges.view(np.uint8) * np.uint8(255))
     red, green, blue = np.moveaxis(colour, 2, 0)
-    brightness = colour.mean(axis=2)
+    brightness = (red + green + blue) / np.float32(3)
+    saturation = np.maximum(np.maximum(red, green), blue) - np.minimum(np.minimum(red, green), blue)
     top = colour[: max(1, len(colour) // _TOP_SHARE)].reshape(-1, 3).mean(axis=0)
     return np.stack(
         [
@@ -47,7 +48,7 @@ def block_features(photo: U8, edges: Bool) -> F32:
             blue - red,
             np.abs(blue - red),
             green - (red + blue) / 2,
-            colour.max(axis=2) - colour.min(axis=2),
+            saturation,
             np.sqrt(((colour - top) ** 2).sum(axis=2)),
             brightness - top.mean(),
         ],
