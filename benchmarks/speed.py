@@ -119,12 +119,12 @@ def _run(words: list[str]) -> None:
 
 
 def _peak_memory(photo: Path) -> str:
+    if not Path("/proc/self/status").exists():
+        return "Peak memory: **not run**, it is read from Linux's /proc."
     done = subprocess.run(
         [sys.executable, "-c", _PEAK, str(photo)],
         capture_output=True, text=True, check=True,
     )  # fmt: skip
-    if not Path("/proc/self/status").exists():
-        return "Peak memory: **not run**, it is read from Linux's /proc."
     height, width = read_photo(photo).shape[:2]
     return (
         f"Peak memory of a process that reads and detects one photo of {width}x{height}: "

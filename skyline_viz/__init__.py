@@ -16,16 +16,23 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from skyline_viz.bins import Bins
     from skyline_viz.config import DetectorConfig, TrainingConfig
-    from skyline_viz.constraints import PathError
+    from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
     from skyline_viz.datasets import Dataset, DatasetError, DatasetItem, open_dataset
     from skyline_viz.detector import Detection, Detector
     from skyline_viz.filter_bank import FilterBank, FilterBankError
     from skyline_viz.metrics import a_err, column_errors, is_gross_miss, segmentation_accuracy
+    from skyline_viz.path import margins, path_tables, shortest_path
     from skyline_viz.photo import PhotoError, read_photo, write_photo
     from skyline_viz.skyline import Skyline, SkylineError
     from skyline_viz.training import train
 
 _HOME = {
+    "Anchor": "constraints",
+    "Constraints": "constraints",
+    "StraightSpan": "constraints",
+    "margins": "path",
+    "path_tables": "path",
+    "shortest_path": "path",
     "Bins": "bins",
     "Dataset": "datasets",
     "DatasetError": "datasets",
@@ -51,7 +58,9 @@ _HOME = {
 }
 
 __all__ = [
+    "Anchor",
     "Bins",
+    "Constraints",
     "Dataset",
     "DatasetError",
     "DatasetItem",
@@ -64,13 +73,17 @@ __all__ = [
     "PhotoError",
     "Skyline",
     "SkylineError",
+    "StraightSpan",
     "TrainingConfig",
     "a_err",
     "column_errors",
     "is_gross_miss",
+    "margins",
     "open_dataset",
+    "path_tables",
     "read_photo",
     "segmentation_accuracy",
+    "shortest_path",
     "train",
     "write_photo",
 ]

@@ -139,7 +139,7 @@ def _status_of(error: Exception) -> int | None:
 
     if isinstance(error, ValueError | PhotoError):
         return USAGE
-    return SOME_FAILED if isinstance(error, OSError | BatchError) else None
+    return SOME_FAILED if isinstance(error, OSError | MemoryError | BatchError) else None
 
 
 def _silence_stdout() -> None:

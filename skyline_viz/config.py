@@ -15,7 +15,7 @@ FILTER_SIZES = (3, 5, 7, 9, 11, 13, 15)
 
 @dataclass(frozen=True)
 class DetectorConfig:
-    """How a photo becomes a skyline; the defaults are the best found by cross-validation."""
+    """How a photo becomes a skyline; ``docs/method.md`` says how the defaults were chosen."""
 
     edge_source: EdgeSource = "colour"
     """What Canny sees: the colour photo, or the grey one as published."""
@@ -30,7 +30,7 @@ class DetectorConfig:
     """Whether the thresholds are lowered for soft and hazy photos, see `fitted_thresholds`."""
 
     frame: int = 4
-    """Rows at the top and at the bottom whose edges are taken for a picture frame, and dropped."""
+    """Rows at the top and at the bottom in which edges all across count as a picture frame."""
 
     v: float = 0.5
     """Weight of the score against the gradient strength, in [0, 1] (the paper's ``v``)."""
@@ -67,10 +67,10 @@ class DetectorConfig:
 
     @classmethod
     def paper(cls) -> "DetectorConfig":
-        """Return the published method: grey edges, fixed thresholds, no clear-sky term.
+        """Return the published method: grey edges, fixed thresholds, none of our terms.
 
-        The paper's infinite cost of non-edge pixels is a finite one here, and ``delta`` is 1 with
-        free links; the paper leaves both open.
+        The paper's infinite cost of non-edge pixels is a finite one here. It leaves ``delta`` and
+        the scale of the link cost open: they are 1 and 0, with which its figures are reached.
         """
         return cls(
             edge_source="grey",

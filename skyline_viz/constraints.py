@@ -77,12 +77,13 @@ def apply_constraints(
     columns, reach = columns.copy(), reach.copy()
     width, height = columns.shape
     if constraints.forbidden is not None:
-        if constraints.forbidden.shape != (height, width):
+        forbidden = constraints.forbidden
+        if forbidden.shape != (height, width) or forbidden.dtype != np.bool_:
             raise PathError(
-                f"forbidden has the shape {constraints.forbidden.shape}, "
-                f"the costs have {(height, width)}"
+                f"forbidden is a bool array {(height, width)}, as the costs are, "
+                f"not {forbidden.dtype} {forbidden.shape}"
             )
-        columns[constraints.forbidden.T] = np.inf
+        columns[forbidden.T] = np.inf
     fixed: dict[int, tuple[int, Anchor]] = {}
     for anchor in constraints.anchors:
         _fix(fixed, anchor.column, anchor.row, anchor, (height, width))
@@ -98,7 +99,7 @@ def apply_constraints(
     for column, (row, anchor) in fixed.items():
         kept = columns[column, row]
         if np.isinf(kept):
-            raise PathError(f"{anchor} lies on a forbidden pixel, row {row} of column {column}")
+            raise PathError(f"{anchor} asks for a forbidden pixel, row {row} of column {column}")
         columns[column] = np.inf
         columns[column, row] = kept
     return columns, reach
@@ -126,6 +127,9 @@ def _fix(
     shape: tuple[int, int],
 ) -> None:
     height, width = shape
+    if column % 1 or row % 1:
+        raise PathError(f"{anchor} does not lie on a whole row and column")
+    column, row = int(column), int(row)
     if not (0 <= column < width and 0 <= row < height):
         raise PathError(f"{anchor} lies outside the photo of {width}x{height} pixels")
     if column in fixed and fixed[column][0] != row:

@@ -7,16 +7,19 @@ from time import perf_counter
 
 import numpy as np
 
-from skyline_viz.arrays import F32, U8, Bool, Int, check_photo
+from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo, read_only
 from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
 from skyline_viz.edges import edge_pixels, find_edges, to_grey
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.path import shortest_path
+from skyline_viz.path import margins, path_tables, shortest_path
 from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
 from skyline_viz.tensor import tensor_at
 from skyline_viz.terrain import BLOCK, terrain_above
+
+FRAME_SHARE = 0.5
+"""A row at the rim of a photo is a picture frame when edges fill more than this share of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +73,17 @@ class Detection:
 
     bank: FilterBank
     """The filter bank that was used."""
+
+    def __post_init__(self) -> None:
+        """Freeze the arrays, all but the caller's own photo."""
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray) and value is not self.photo:
+                read_only(value)
+
+    def margins(self) -> F64:
+        """How sure each column is, ``(W,)``: see `path.margins`. Takes two more path searches."""
+        tables = path_tables(self.cost, self.config.delta, self.config.link_weight)
+        return margins(tables.min_marginals)
 
     @property
     def total_seconds(self) -> float:
@@ -156,9 +170,10 @@ def candidate_edges(photo: U8, config: DetectorConfig) -> tuple[Bool, tuple[floa
         config.high_threshold,
         fit=config.fit_thresholds,
     )
-    if config.frame:
-        edges[: config.frame] = False
-        edges[-config.frame :] = False
+    height = len(edges)
+    for row in {*range(config.frame), *range(height - config.frame, height)} & set(range(height)):
+        if edges[row].mean() > FRAME_SHARE:
+            edges[row] = False
     return edges, thresholds
 
 

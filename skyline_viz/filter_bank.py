@@ -136,8 +136,11 @@ class FilterBank:
         """
         try:
             # np.load, given a path, leaves damaged files open
+            with Path(path).open("rb") as file:
+                if not zipfile.is_zipfile(file):
+                    raise FilterBankError(f"{path} is damaged or not a filter bank.")
             with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as archive:
-                if not isinstance(archive, np.lib.npyio.NpzFile) or "header" not in archive:
+                if "header" not in archive:
                     raise FilterBankError(f"{path} is not a filter bank.")
                 header = json.loads(archive["header"].tobytes())
                 if not isinstance(header, dict) or header.get("format") != FORMAT:
@@ -158,7 +161,7 @@ class FilterBank:
         except FilterBankError:
             raise
         except _DAMAGE as error:
-            raise FilterBankError(f"{path} is damaged or not a filter bank: {error}.") from error
+            raise FilterBankError(f"{path} is damaged or not a filter bank.") from error
         try:
             return cls(filters, samples, terrain, bins, provenance)
         except (ValueError, TypeError) as error:

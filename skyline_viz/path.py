@@ -110,13 +110,17 @@ def _problem(
     """Checked nodal costs ``(W, H)`` and the largest change of row on each link ``(W - 1,)``."""
     if cost.ndim != 2 or cost.size == 0:
         raise PathError(f"nodal costs have the shape (H, W), not {cost.shape}")
-    if delta < 0 or not 0 <= link_weight < np.inf:
-        raise PathError("delta and link_weight are finite and not negative")
+    if not (delta >= 0 and delta % 1 == 0):
+        raise PathError(f"delta is a whole number of rows, 0 or more, not {delta}")
+    if not 0 <= link_weight < np.inf:
+        raise PathError(f"link_weight is finite and not negative, not {link_weight}")
+    if cost.dtype not in (np.float32, np.float64):
+        cost = cost.astype(np.float64)
     lowest = cost.min()  # NaN where there is one
     if np.isnan(lowest) or lowest == -np.inf:
         raise PathError("a nodal cost is NaN or minus infinity")
     height, width = cost.shape
-    reach = np.full(width - 1, min(delta, height - 1), np.int32)
+    reach = np.full(width - 1, min(int(delta), height - 1), np.int32)
     columns = np.ascontiguousarray(cost.T)
     if constraints is None:
         return columns, reach

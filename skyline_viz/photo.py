@@ -192,6 +192,8 @@ def _orientation(image: Image.Image) -> int:
 def _to_rgb(image: Image.Image) -> U8:
     if image.mode == "F":
         raise ValueError("floating-point pixels have no defined white")
+    if image.mode == "I" and image.format != "PPM":
+        raise ValueError("32-bit pixels have no defined white")
     if image.mode.startswith("I"):  # 16-bit grey, which convert("RGB") would clip at 255
         grey = (np.asarray(image).astype(np.int64) >> 8).clip(0, 255).astype(np.uint8)
         return np.repeat(grey[:, :, None], 3, axis=2)

@@ -132,6 +132,8 @@ class Skyline:
             SkylineError: The width differs, or a visible row lies outside the photo.
         """
         check_photo(photo)
+        if paint not in _PAINTS:
+            raise SkylineError(f"a skyline is painted in red or blue, not in {paint}")
         height, width = photo.shape[:2]
         if width != self.width:
             raise SkylineError(f"the photo is {width} columns wide, the skyline {self.width}")

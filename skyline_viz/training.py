@@ -131,7 +131,12 @@ def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = 
         seed: Seed with which they were gathered, for the provenance.
         config: The same as for `gather`.
         dataset: Name for the provenance.
+
+    Raises:
+        ValueError: There is not a single sample.
     """
+    if gram.samples.sum() == 0:
+        raise ValueError("training needs at least one photo with a visible true skyline")
     filters = regress(gram.sums, config.smoothness)
     fallback = regress(pooled(gram.sums, config.bins), config.smoothness)
     starved = gram.samples < STARVED_SAMPLES

@@ -196,7 +196,7 @@ def test_an_anchor_on_a_forbidden_pixel_is_refused():
     forbidden = np.zeros((4, 5), bool)
     forbidden[1, 2] = True
     asked = Constraints(anchors=(Anchor(2, 1),), forbidden=forbidden)
-    with pytest.raises(PathError, match=r"column 2, row 1 lies on a forbidden pixel"):
+    with pytest.raises(PathError, match=r"column 2, row 1 asks for a forbidden pixel"):
         shortest_path(np.ones((4, 5)), 1, 0, asked)
 
 
@@ -218,8 +218,26 @@ def test_a_straight_span_ends_right_of_its_start(end):
 
 def test_forbidden_pixels_of_another_photo_are_refused():
     asked = Constraints(forbidden=np.zeros((5, 4), bool))
-    with pytest.raises(PathError, match=r"forbidden has the shape \(5, 4\).*\(4, 5\)"):
+    with pytest.raises(PathError, match=r"forbidden is a bool array \(4, 5\).* not bool \(5, 4\)"):
         shortest_path(np.ones((4, 5)), 1, 0, asked)
+
+
+def test_forbidden_pixels_that_are_numbers_are_refused():
+    asked = Constraints(forbidden=np.zeros((4, 5), np.uint8))
+    with pytest.raises(PathError, match=r"forbidden is a bool array .* not uint8"):
+        shortest_path(np.ones((4, 5)), 1, 0, asked)
+
+
+@pytest.mark.parametrize("anchor", [Anchor(1.5, 1), Anchor(1, 0.5), Anchor(np.nan, 1)])
+def test_anchors_lie_on_whole_pixels(anchor):
+    with pytest.raises(PathError, match="does not lie on a whole row and column"):
+        shortest_path(np.ones((4, 5)), 1, 0, Constraints(anchors=(anchor,)))
+
+
+def test_whole_number_costs_take_constraints():
+    path = shortest_path(np.ones((4, 5), np.int32), 1, 0, Constraints(anchors=(Anchor(2.0, 3.0),)))
+    assert path.rows[2] == 3
+    assert path.cost == 5
 
 
 def test_anchors_are_sorted_by_column():

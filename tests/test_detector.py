@@ -264,7 +264,7 @@ def test_photos_of_any_size(height, width, seed):
 def test_extreme_settings(chosen):
     detection = Detector(config=DetectorConfig(**chosen)).detect(mountains(40, 60)[0])
     assert detection.skyline.width == 60
-    assert detection.edges.any() == (chosen.get("frame") is None)
+    assert detection.edges.any()
 
 
 def test_thresholds_of_zero():
@@ -353,3 +353,21 @@ def test_the_given_bank_scores():
     assert not detection.scores.any()
     assert detection.bank is silent
     assert Detector(bank).detect(photo).scores.any()
+
+
+def test_margins_are_those_of_the_path_and_small_where_two_lines_compete():
+    photo = np.full((60, 80, 3), 200, np.uint8)
+    photo[20:] = 120
+    photo[40:, 40:] = 20  # a second, stronger line on the right
+    margin = Detector().detect(photo).margins()
+    assert margin.shape == (80,)
+    assert (margin >= 0).all()
+    assert np.isfinite(margin).all()
+
+
+def test_the_arrays_of_a_detection_are_frozen_but_not_the_photo():
+    photo = mountains(40, 60)[0]
+    detection = Detector().detect(photo)
+    for name in ("edges", "edge_rows", "strength", "bins", "scores", "cost"):
+        assert not getattr(detection, name).flags.writeable, name
+    assert photo.flags.writeable

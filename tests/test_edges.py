@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from skyline_viz.config import DetectorConfig
-from skyline_viz.detector import candidate_edges
+from skyline_viz.detector import FRAME_SHARE, candidate_edges
 from skyline_viz.edges import edge_pixels, to_grey
 
 STEADY = settings(deadline=None, derandomize=True, max_examples=60)
@@ -112,16 +112,25 @@ def test_fitted_edges_are_those_of_the_fitted_thresholds():
 
 
 @pytest.mark.parametrize("frame", [0, 1, 4, 19, 20, 1000])
-def test_edges_in_the_frame_are_dropped(frame):
+def test_lines_all_across_the_frame_are_dropped(frame):
     photo = texture()[72:112, :60]
-    everywhere = edges_of(photo)
+    photo[:3] = 0
+    photo[20:23, 5:] = 255
+    everywhere = edges_of(photo, frame=0)
     expected = everywhere.copy()
     for row in range(40):
-        if row < frame or row >= 40 - frame:
+        if (row < frame or row >= 40 - frame) and everywhere[row].mean() > FRAME_SHARE:
             expected[row] = False
     assert np.array_equal(edges_of(photo, frame=frame), expected)
-    assert everywhere[0].any()
-    assert everywhere[-1].any()
+    assert (everywhere.mean(axis=1) > FRAME_SHARE).any()
+
+
+def test_a_skyline_that_touches_the_frame_is_kept():
+    photo = np.full((60, 80, 3), 220, np.uint8)
+    photo[np.arange(60)[:, None] >= np.abs(np.arange(80) - 40)[None, :] * 0.5 + 1] = 60
+    edges = edges_of(photo)
+    assert edges[:4].any()
+    assert not edges_of(photo, frame=0)[:4].mean(axis=1).max() > FRAME_SHARE
 
 
 @SOURCES

@@ -293,10 +293,16 @@ def test_costs_of_another_shape_are_refused(shape):
         shortest_path(np.ones(shape), 1, 0)
 
 
-@pytest.mark.parametrize(("delta", "link_weight"), [(-1, 0), (1, -0.1), (1, np.nan), (1, INF)])
-def test_bad_parameters_are_refused(delta, link_weight):
-    with pytest.raises(PathError, match="delta and link_weight"):
-        shortest_path(np.ones((3, 3)), delta, link_weight)
+@pytest.mark.parametrize("delta", [-1, 1.5, np.nan, INF])
+def test_a_bad_delta_is_refused(delta):
+    with pytest.raises(PathError, match=f"delta is a whole number.* not {delta}"):
+        shortest_path(np.ones((3, 3)), delta, 0)
+
+
+@pytest.mark.parametrize("link_weight", [-0.1, np.nan, INF])
+def test_a_bad_link_weight_is_refused(link_weight):
+    with pytest.raises(PathError, match=f"link_weight is finite.* not {link_weight}"):
+        shortest_path(np.ones((3, 3)), 1, link_weight)
 
 
 @pytest.mark.parametrize("column", [0, 2, 4])

@@ -119,7 +119,8 @@ def mountain_range(
     site, height = _shape(frame, rng, site)
     altitude: F32 = height / spec.relief
     x_slope, y_slope = slopes(box_blur(height, max(1, round(unit))), steps)
-    upright: F32 = 1 / np.sqrt(x_slope * x_slope + y_slope * y_slope + 1)
+    steepness = np.sqrt(x_slope * x_slope + y_slope * y_slope + 1)
+    upright: F32 = (1 / steepness).astype(np.float32, copy=False)
     boulders = noise.fractal(x, site.y, 14, site.smallest, gain=0.45) * spec.rough
     height = height + boulders * (ramp(1.0, 0.6, upright) + 0.3)
     level: F32 = (height - box_blur(height, max(2, round(unit * 9)))) * np.float32(0.11)
