@@ -31,7 +31,7 @@ def main() -> None:
         "Times are ratios within one run, or say what else they are.",
     ]
     if web is None or not web.is_dir():
-        parts.append("Real photographs: **not run**, no folder was given (`make bench DATA=DIR`).")
+        parts.append(f"Real photographs: **not run**, {web or 'no folder of data'} is not there.")
     else:
         parts += [accuracy.cross_validated(web), robustness.varied(web), filters.studies(web)]
     parts += [accuracy.rendered(ROOT / "sample_data"), speed.measured(web, ROOT / "sample_data")]

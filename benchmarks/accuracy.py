@@ -25,7 +25,8 @@ def cross_validated(web: Path) -> str:
     """Two folds: the published method, the default, and the default less each of its parts."""
     items = [item for item in open_dataset(web) if item.truth_path]
     paper = DetectorConfig.paper()
-    configs = {"`paper()`": paper}
+    steep = replace(paper, delta=4, link_weight=0.1)
+    configs = {"`paper()`": paper, "`paper()`, delta 4, link weight 0.1": steep}
     for name, changes in WITHOUT.items():
         configs[name] = replace(DetectorConfig(), **changes)
     rows, notes = [], ""

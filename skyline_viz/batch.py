@@ -44,7 +44,10 @@ class Failure:
     """Why, in one sentence."""
 
     def __str__(self) -> str:
-        named = f"/{self.name}." in f"/{self.reason}".replace(os.sep, "/")
+        first = self.reason.replace(os.sep, "/").split(" ", 1)[0]
+        named = first.rsplit("/", 1)[-1] in (self.name, self.name.rsplit("/", 1)[-1]) or (
+            f"/{self.name}." in f"/{self.reason}".replace(os.sep, "/")
+        )
         text = self.reason if named else f"{self.name}: {self.reason}"
         return text if text.endswith(".") else f"{text}."
 

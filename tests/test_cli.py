@@ -663,3 +663,13 @@ def test_the_same_photo_gives_the_same_bytes(say, tmp_path):
         whole = b"".join((tmp_path / out / name).read_bytes() for name in files(tmp_path / out))
         digests.add(hashlib.sha256(whole).hexdigest())
     assert len(digests) == 1
+
+
+def test_detect_says_what_is_wrong_with_a_data_set(say, tmp_path):
+    (tmp_path / "set" / "images").mkdir(parents=True)
+    (tmp_path / "set" / "masks").mkdir()
+    Image.fromarray(np.full((40, 60, 3), 90, np.uint8)).save(tmp_path / "set/images/a.png")
+    Image.fromarray(np.full((40, 60), 255, np.uint8)).save(tmp_path / "set/masks/orphan.png")
+    status, _, errors = say("detect", tmp_path / "set", "--out", tmp_path / "out")
+    assert status == 0
+    assert "orphan" in errors

@@ -355,14 +355,15 @@ def test_the_given_bank_scores():
     assert Detector(bank).detect(photo).scores.any()
 
 
-def test_margins_are_those_of_the_path_and_small_where_two_lines_compete():
+def test_margins_shrink_when_a_second_line_appears():
     photo = np.full((60, 80, 3), 200, np.uint8)
     photo[20:] = 120
-    photo[40:, 40:] = 20  # a second, stronger line on the right
-    margin = Detector().detect(photo).margins()
-    assert margin.shape == (80,)
-    assert (margin >= 0).all()
-    assert np.isfinite(margin).all()
+    alone = Detector().detect(photo)
+    photo[40:] = 20
+    rivalled = Detector().detect(photo)
+    assert alone.margins().shape == (80,)
+    assert (rivalled.margins() < alone.margins()).all()
+    assert (rivalled.margins() > 0).all()
 
 
 def test_the_arrays_of_a_detection_are_frozen_but_not_the_photo():

@@ -1,6 +1,7 @@
 """The docs name every command, option and setting that exists, and none that does not."""
 
 import contextlib
+import doctest
 import io
 import re
 from dataclasses import fields
@@ -85,6 +86,12 @@ def test_links_lead_somewhere(page):
 def test_python_examples_use_public_names_only(page):
     for name in re.findall(r"\bsv\.([A-Za-z_]+)", page.read_text()):
         assert name in skyline_viz.__all__, name
+
+
+def test_the_examples_of_the_reference_give_what_they_say():
+    tried = doctest.testfile(str(ROOT / "docs" / "reference.md"), module_relative=False)
+    assert tried.attempted > 5
+    assert tried.failed == 0
 
 
 def test_the_five_lines_of_the_readme_run(tmp_path, monkeypatch):

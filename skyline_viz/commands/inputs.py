@@ -33,9 +33,11 @@ def collect(paths: Sequence[Path]) -> list[Input]:
     """
     found: dict[Path, DatasetItem] = {}
     for path in paths:
-        items: Iterable[DatasetItem] = (
-            open_dataset(path) if path.is_dir() else [DatasetItem(path.stem, path)]
-        )
+        items: Iterable[DatasetItem] = [DatasetItem(path.stem, path)]
+        if path.is_dir():
+            items = dataset = open_dataset(path)
+            for problem in dataset.problems:
+                say(f"{dataset.name}: {problem}")
         for item in items:
             found.setdefault(item.photo_path.resolve(), item)
     items = list(found.values())
