@@ -49,7 +49,7 @@ def nodal_cost(edges: Bool, at_edges: F32, non_edge: float, clear_sky: float) ->
         ``(H, W)`` float32, a transposed view: the path search goes down columns.
     """
     across = np.full(edges.shape, non_edge, np.float32)
-    across[edges] = at_edges
+    across.ravel()[np.flatnonzero(edges)] = at_edges  # thrice as fast as across[edges]
     cost: F32 = cv2.transpose(across)  # by tiles: numpy's own copy of a transpose misses the cache
     if clear_sky > 0:
         _add_clear_sky(cost, cv2.transpose(edges.view(np.uint8)), np.float32(clear_sky))

@@ -19,6 +19,7 @@ from skyline_viz.arrays import F32, U8, Int
 WINDOW = np.array([0.0053, 0.0948, 0.3999, 0.3999, 0.0948, 0.0053], np.float32)
 """The window along one axis; the weight of a 6x6 neighbourhood is its outer product."""
 
+_CHUNK = 1 << 15  # tensors at a time, so that what is worked out on the way stays in the cache
 _REACH = 3  # pixels that the 6-tap window of 2x2 differences needs to each side
 
 
@@ -149,6 +150,14 @@ def _products(red: U8, green: U8, blue: U8, row: int, products: F32) -> None:
 def _eigen(txx: F32, txy: F32, tyy: F32) -> F32:
     """Strength, coherence and orientation of ``(n,)`` tensors, ``(3, n)``."""
     features = np.empty((3, len(txx)), np.float32)
+    for start in range(0, len(txx), _CHUNK):
+        part = slice(start, start + _CHUNK)
+        _eigen_part(txx[part], txy[part], tyy[part], features[:, part])
+    return features
+
+
+def _eigen_part(txx: F32, txy: F32, tyy: F32, features: F32) -> None:
+    """Write `_eigen` of a few tensors to `features`."""
     half_trace = (txx + tyy) * np.float32(0.5)
     half_gap = np.sqrt(np.square((txx - tyy) * np.float32(0.5)) + np.square(txy))
     large = np.sqrt(half_trace + half_gap, out=features[0])
@@ -159,4 +168,3 @@ def _eigen(txx: F32, txy: F32, tyy: F32) -> F32:
     angle[angle < 0] += np.float32(180)
     angle[angle >= 180] = 0  # a tiny negative angle plus 180 rounds to 180
     features[2] = angle
-    return features
