@@ -86,18 +86,24 @@ def _ratios(photos: list[U8]) -> str:
 
 def _growth(photos: list[U8], large: list[U8]) -> str:
     detector = Detector()
-    small = statistics.median(
-        _best(lambda p=p: detector.detect(p), 3) / p[..., 0].size for p in photos
-    )
-    rows = [[f"{photos[0].shape[1]}x{photos[0].shape[0]}", "1.00"]]
     if not large:
         large = [cv2.resize(photos[0], (4032, 3024), interpolation=cv2.INTER_CUBIC)]
     by_size: dict[str, list[float]] = {}
     for photo in large:
-        each = _best(lambda p=photo: detector.detect(p), 2) / photo[..., 0].size
-        by_size.setdefault(f"{photo.shape[1]}x{photo.shape[0]}", []).append(each / small)
-    rows += [[size, f"{statistics.median(found):.2f}"] for size, found in sorted(by_size.items())]
-    return "Time a pixel, relative to the smallest:\n\n" + markdown(["size", "time a pixel"], rows)
+        factor = (photos[0][..., 0].size / photo[..., 0].size) ** 0.5
+        small = cv2.resize(photo, None, fx=factor, fy=factor, interpolation=cv2.INTER_AREA)
+        seconds = [
+            _best(lambda image=image: detector.detect(image), 3) / image[..., 0].size
+            for image in (photo, small)
+        ]
+        size = f"{photo.shape[1]}x{photo.shape[0]}"
+        by_size.setdefault(size, []).append(seconds[0] / seconds[1])
+    rows = [
+        [size, str(len(found)), f"{statistics.median(found):.2f}"]
+        for size, found in sorted(by_size.items())
+    ]
+    table = markdown(["size", "photographs", "time a pixel"], rows)
+    return f"Time a pixel, relative to the same photograph reduced to 0.7 megapixels:\n\n{table}"
 
 
 def _whole_process(photo: Path, out: Path) -> str:
