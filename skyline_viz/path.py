@@ -134,11 +134,16 @@ def _require_path(forward: F64, constraints: Constraints | None) -> None:
     raise PathError(find_conflict(dead, constraints or Constraints()))
 
 
-@numba.njit(cache=True, nogil=True)
 def _forward(columns: F32, reach: Int, link_weight: float) -> F64:
     """Cheapest cost from column 0 to every pixel, ``(W, H)``; a window of reach pixels a link."""
+    table = np.empty(columns.shape, np.float64)  # by numpy, which asks for huge pages
+    _fill_forward(columns, reach, link_weight, table)
+    return table
+
+
+@numba.njit(cache=True, nogil=True)
+def _fill_forward(columns: F32, reach: Int, link_weight: float, table: F64) -> None:
     width, height = columns.shape
-    table = np.empty((width, height), np.float64)
     for row in range(height):
         table[0, row] = columns[0, row]
     for column in range(1, width):
@@ -155,7 +160,6 @@ def _forward(columns: F32, reach: Int, link_weight: float) -> F64:
                 after[row] = min(after[row], up)
         for row in range(height):
             after[row] += columns[column, row]
-    return table
 
 
 @numba.njit(cache=True, nogil=True)
