@@ -2,7 +2,7 @@
 
 Ours, not the paper's. The underside of a cloud can be as strong an edge as a ridge, but what lies
 below it still looks like sky. A linear model of a dozen features of 8x8 pixel blocks says so
-roughly, in a hundredth of a detection's time; summed down the columns it tells, for every pixel,
+roughly, in about a tenth of a detection's time; summed down the columns it tells, for every pixel,
 how well "all sky above here, all terrain below" fits the photo.
 """
 
