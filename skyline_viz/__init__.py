@@ -23,7 +23,9 @@ if TYPE_CHECKING:
     from skyline_viz.metrics import a_err, column_errors, is_gross_miss, segmentation_accuracy
     from skyline_viz.path import margins, path_tables, shortest_path
     from skyline_viz.photo import PhotoError, read_photo, write_photo
+    from skyline_viz.recording import log_detection, log_stages, new_recording
     from skyline_viz.skyline import Skyline, SkylineError
+    from skyline_viz.summary import Summary
     from skyline_viz.training import train
 
 _HOME = {
@@ -47,9 +49,13 @@ _HOME = {
     "Skyline": "skyline",
     "SkylineError": "skyline",
     "TrainingConfig": "config",
+    "Summary": "summary",
     "a_err": "metrics",
     "column_errors": "metrics",
     "is_gross_miss": "metrics",
+    "log_detection": "recording",
+    "log_stages": "recording",
+    "new_recording": "recording",
     "open_dataset": "datasets",
     "read_photo": "photo",
     "segmentation_accuracy": "metrics",
@@ -74,11 +80,15 @@ __all__ = [
     "Skyline",
     "SkylineError",
     "StraightSpan",
+    "Summary",
     "TrainingConfig",
     "a_err",
     "column_errors",
     "is_gross_miss",
+    "log_detection",
+    "log_stages",
     "margins",
+    "new_recording",
     "open_dataset",
     "path_tables",
     "read_photo",

@@ -12,11 +12,12 @@ from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
 from skyline_viz.edges import edge_pixels, find_edges, to_grey
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.path import margins, path_tables, shortest_path
+from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
 from skyline_viz.tensor import tensor_at
 from skyline_viz.terrain import BLOCK, terrain_above
+from skyline_viz.uncertainty import Uncertainty, uncertainty
 
 FRAME_SHARE = 0.5
 """A row at the rim of a photo is a picture frame when edges fill more than this share of it."""
@@ -62,6 +63,9 @@ class Detection:
     path_cost: float
     """Nodal and link costs along the path."""
 
+    forward: F64
+    """``(H, W)`` float64 cost of the cheapest path from the first column to each pixel."""
+
     thresholds: tuple[float, float]
     """Canny thresholds that were used."""
 
@@ -80,10 +84,13 @@ class Detection:
             if isinstance(value, np.ndarray) and value is not self.photo:
                 read_only(value)
 
+    def uncertainty(self) -> Uncertainty:
+        """How sure the path is: margins and detours. Takes one more path search."""
+        return uncertainty(self.cost, self.forward, self.config.delta, self.config.link_weight)
+
     def margins(self) -> F64:
-        """How sure each column is, ``(W,)``: see `path.margins`. Takes two more path searches."""
-        tables = path_tables(self.cost, self.config.delta, self.config.link_weight)
-        return margins(tables.min_marginals)
+        """How sure each column is, ``(W,)``: see `uncertainty.Uncertainty.margins`."""
+        return self.uncertainty().margins
 
     @property
     def total_seconds(self) -> float:
@@ -154,6 +161,7 @@ class Detector:
             scores=scores,
             cost=cost,
             path_cost=path.cost,
+            forward=path.forward,
             thresholds=thresholds,
             seconds=seconds,
             config=config,

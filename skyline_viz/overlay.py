@@ -20,6 +20,9 @@ PATH: Colour = (0xFF, 0x2D, 0x95)
 TRUTH: Colour = (0x00, 0xD1, 0xB2)
 """Turquoise: the truth."""
 
+ALTERNATIVE: Colour = (0xFF, 0xD4, 0x00)
+"""Yellow: another line to compare with."""
+
 HALO: Colour = (20, 20, 20)
 """What surrounds a line, so that it reads on snow as well as on rock."""
 

@@ -18,7 +18,7 @@ from skyline_viz.arrays import F32, F64, Int
 from skyline_viz.constraints import Constraints, PathError, apply_constraints, find_conflict
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Path:
     """A cheapest path."""
 
@@ -27,6 +27,9 @@ class Path:
 
     cost: float
     """Its nodal and link costs together."""
+
+    forward: F64
+    """``(H, W)`` cost of the cheapest path from the first column to each pixel."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +70,7 @@ def shortest_path(
     forward = _forward(columns, reach, float(link_weight))
     _require_path(forward, constraints)
     rows = _trace(forward, reach, float(link_weight))
-    return Path(rows=rows, cost=float(forward[-1, rows[-1]]))
+    return Path(rows=rows, cost=float(forward[-1, rows[-1]]), forward=forward.T)
 
 
 def path_tables(

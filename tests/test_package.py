@@ -22,6 +22,7 @@ CONTRACT = (
     "Skyline",
     "a_err",
     "open_dataset",
+    "log_detection",
 )
 HEAVY = ("numpy", "cv2", "numba", "matplotlib", "PIL", "rich", "tyro", "rerun", "multiprocessing")
 

@@ -1,0 +1,236 @@
+"""How the viewer lays a recording out: first the answer, then the stages, then the details.
+
+- *Skyline*: where is the line, and is it right?
+- *Stages*: the paper's figure 1, (a) to (f).
+- *Tensor*: what picks the filter.
+- *Filter bank*: the filters, and which of them the path used.
+- *Columns*: error, margin and costs along the columns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import rerun.blueprint as rrb
+
+from skyline_viz import entities
+from skyline_viz.entities import below
+
+TABS = ("Skyline", "Stages", "Tensor", "Filter bank", "Columns")
+"""The tabs of a recording of one photo with a full detection."""
+
+_BLACK = (12, 12, 12)
+_LINES = (entities.PATH, entities.TRUTH, entities.ALTERNATIVE)
+
+
+@dataclass(frozen=True)
+class Contents:
+    """What a recording holds, which decides about its views."""
+
+    height: int
+    """Rows of the photo, of the first one where there are several."""
+
+    width: int
+    """Its columns."""
+
+    truth: bool = False
+    """Whether there is a truth."""
+
+    bank: bool = True
+    """Whether the filter bank is in it."""
+
+    path_bins: bool = False
+    """Whether the `entities.COLUMN` timeline is in it."""
+
+    photos: int = 1
+    """Number of photos on the `entities.IMAGE` timeline."""
+
+    compared: str = ""
+    """Name of the second detection; nothing without one."""
+
+
+def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blueprint:
+    """Layout of a recording of detections.
+
+    Args:
+        contents: What the recording holds.
+        active: Name of the tab in front.
+    """
+    tabs = [
+        _first_tab(contents),
+        _stages_tab(contents, _figure_1(), "Stages"),
+        _tensor_tab(contents),
+        *([_bank_tab(contents)] if contents.bank else []),
+        _columns_tab(contents),
+        *([_compare_tab(contents)] if contents.compared else []),
+        *([_photos_tab(contents)] if contents.photos > 1 else []),
+    ]
+    return _with_panels(tabs, contents, active)
+
+
+def stages_blueprint(height: int, width: int, stages: Iterable[str]) -> rrb.Blueprint:
+    """Layout of what `recording.log_stages` logged.
+
+    Args:
+        height: Rows of the photo.
+        width: Its columns.
+        stages: Names of the maps.
+    """
+    contents = Contents(height, width)
+    views = {name.rsplit("/", 1)[-1].capitalize(): [name] for name in stages}
+    views = {"Photo": [entities.PHOTO], **views, "Skyline": [entities.PHOTO, *_with_halos()]}
+    line = _photo_view("Where is the line?", [entities.PHOTO, *_with_halos()])
+    tabs = [
+        rrb.Vertical(line, name="Skyline"),
+        _grid(contents, [_photo_view(*one) for one in views.items()], "Stages"),
+    ]
+    return _with_panels(tabs, contents, "Skyline")
+
+
+def _first_tab(contents: Contents) -> rrb.Container:
+    line = _photo_view(
+        "Where is the line? magenta: path"
+        + (", turquoise: truth" if contents.truth else "")
+        + (f", yellow: {contents.compared}" if contents.compared else ""),
+        [entities.PHOTO, *_with_halos(), entities.STRIP, entities.CHOSEN],
+    )
+    plot = _errors() if contents.truth else _plot(entities.MARGINS, "Margin (cost)")
+    report = rrb.TextDocumentView(origin=entities.REPORT, name="Report")
+    if contents.width < 1.2 * contents.height:
+        side = rrb.Vertical(report, plot, row_shares=[3, 2])
+        return rrb.Horizontal(line, side, column_shares=[3, 2], name="Skyline")
+    foot = rrb.Horizontal(plot, report, column_shares=[3, 2])
+    return rrb.Vertical(line, foot, row_shares=[3, 2], name="Skyline")
+
+
+def _stages_tab(contents: Contents, stages: dict[str, list[str]], name: str) -> rrb.Container:
+    views = [_photo_view(title, shown) for title, shown in stages.items()]
+    return _grid(contents, views, name)
+
+
+def _figure_1() -> dict[str, list[str]]:
+    return {
+        "(a) Photo": [entities.PHOTO],
+        "(b) Edges": [entities.EDGES],
+        "(c) Score: bright like skyline": [entities.SCORE],
+        "(d) Gradient strength": [entities.STRENGTH],
+        "(e) Nodal cost: bright is cheap": [entities.COST],
+        "(f) Path": [entities.PHOTO, *_with_halos()],
+    }
+
+
+def _tensor_tab(contents: Contents) -> rrb.Container:
+    views = {
+        "Strength (grey levels/px)": [entities.STRENGTH],
+        "Coherence": [entities.COHERENCE],
+        "Orientation of the gradient (degrees)": [entities.ORIENTATION],
+        "Bin: hue is orientation, brighter is stronger": [entities.BIN],
+    }
+    return _stages_tab(contents, views, "Tensor")
+
+
+def _bank_tab(contents: Contents) -> rrb.Container:
+    filters = rrb.Spatial2DView(
+        origin="bank",
+        contents=[f"+ /{entities.BANK_FILTERS}/**", f"+ /{entities.BANK_CHOSEN}"],
+        name="Filters: blue negative, red positive taps",
+        background=_BLACK,
+    )
+    samples = rrb.Spatial2DView(
+        origin="bank",
+        contents=[f"+ /{entities.BANK_SAMPLES}/**", f"+ /{entities.BANK_CHOSEN}"],
+        name="Training samples in each bin",
+        background=_BLACK,
+    )
+    pictures = rrb.Horizontal(filters, samples)
+    if not contents.path_bins:
+        return rrb.Horizontal(filters, samples, name="Filter bank")
+    photo = _photo_view(
+        "The chosen pixel of the path: scrub the column timeline",
+        [entities.PHOTO, *_with_halos([entities.PATH]), entities.CHOSEN],
+    )
+    about = rrb.TextDocumentView(origin=entities.BANK_USED, name="The filter it used")
+    foot = rrb.Horizontal(photo, about, column_shares=[3, 2])
+    return rrb.Vertical(pictures, foot, row_shares=[7, 3], name="Filter bank")
+
+
+def _columns_tab(contents: Contents) -> rrb.Container:
+    plots = [
+        *([_errors()] if contents.truth else []),
+        _plot(entities.MARGINS, "Margin (cost): how much dearer the best other path is"),
+        _plot(entities.NODE_COSTS, "Nodal cost of the path"),
+        _plot(entities.LINK_COSTS, "Link cost of the path"),
+        *([_plot(entities.DIFFERENCES, "Difference (px)")] if contents.compared else []),
+    ]
+    return rrb.Vertical(*plots, name="Columns")
+
+
+def _compare_tab(contents: Contents) -> rrb.Container:
+    views = []
+    stages = {"edges": entities.EDGES, "score": entities.SCORE, "nodal cost": entities.COST}
+    for title, stage in stages.items():
+        views += [
+            _photo_view(f"First: {title}", [stage, *_with_halos([entities.PATH])]),
+            _photo_view(
+                f"{contents.compared}: {title}",
+                [below(entities.OTHER, stage), *_with_halos([entities.ALTERNATIVE])],
+            ),
+        ]
+    text = rrb.TextDocumentView(origin=entities.COMPARISON, name="What differs")
+    other = rrb.TextDocumentView(
+        origin=below(entities.OTHER, entities.REPORT), name=f"Report of {contents.compared}"
+    )
+    return rrb.Grid(*views, text, other, grid_columns=2, name="Compare")
+
+
+def _photos_tab(contents: Contents) -> rrb.Container:
+    metrics = [("a_err", "A_err of each photo (px)")] if contents.truth else []
+    metrics.append(("margin", "Margin of each photo (cost)"))
+    plots = [
+        rrb.TimeSeriesView(origin=f"{entities.METRICS}/{metric}", name=title)
+        for metric, title in metrics
+    ]
+    times = rrb.TimeSeriesView(origin=entities.TIMINGS, name="Time of each stage (ms)")
+    return rrb.Vertical(*plots, times, name="Photos")
+
+
+def _errors() -> rrb.View:
+    return _plot(entities.ERRORS, "Error (px) in each column")
+
+
+def _plot(entity: str, title: str) -> rrb.View:
+    legend = rrb.PlotLegend(visible=False)
+    return rrb.BarChartView(origin=entity, name=title, plot_legend=legend)
+
+
+def _photo_view(title: str, shown: Iterable[str]) -> rrb.View:
+    return rrb.Spatial2DView(
+        origin="/",
+        contents=[f"+ /{entity}" for entity in shown],
+        name=title,
+        background=_BLACK,
+    )
+
+
+def _with_halos(lines: Iterable[str] = _LINES) -> list[str]:
+    return [f"{line}/**" for line in lines]
+
+
+def _grid(contents: Contents, views: list[rrb.View], name: str) -> rrb.Container:
+    """Two columns for wide photos, three for others: a panorama needs the width of the window."""
+    columns = 2 if contents.width > 1.6 * contents.height else 3
+    return rrb.Grid(*views, grid_columns=min(columns, len(views)), name=name)
+
+
+def _with_panels(tabs: list[rrb.Container], contents: Contents, active: str) -> rrb.Blueprint:
+    several = contents.photos > 1
+    timeline = entities.IMAGE if several or not contents.path_bins else entities.COLUMN
+    return rrb.Blueprint(
+        rrb.Tabs(*tabs, active_tab=[tab.name for tab in tabs].index(active)),
+        rrb.TimePanel(state="collapsed", timeline=timeline, play_state="paused"),
+        rrb.SelectionPanel(state="hidden"),
+        rrb.BlueprintPanel(state="hidden"),
+        auto_views=False,
+        auto_layout=False,
+    )

@@ -1,0 +1,237 @@
+"""``skyline-viz inspect``: look at every stage of photos in the viewer."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import tyro
+
+from skyline_viz.batch import Failure, sentence
+from skyline_viz.commands.inputs import Input, collect
+from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, status_after
+from skyline_viz.commands.settings import BankFile, Preset, Switch, config_of, make_detector
+from skyline_viz.config import DetectorConfig
+from skyline_viz.progress import ProgressBar
+
+if TYPE_CHECKING:
+    import rerun as rr
+
+    from skyline_viz.blueprints import Contents
+    from skyline_viz.detector import Detector
+    from skyline_viz.recording import Fidelity
+    from skyline_viz.skyline import Skyline
+
+FULL_AT_MOST = 3
+"""Photos in one recording that are kept in full; more are lean, see `recording.Fidelity`."""
+
+
+@dataclass(frozen=True)
+class Inspect:
+    """Look at every stage of photos in the viewer: edges, tensor, scores, cost, path."""
+
+    photos: Annotated[
+        tuple[Path, ...],
+        tyro.conf.Positional,
+        tyro.conf.arg(metavar="PHOTO [PHOTO ...]", help_behavior_hint="(required)"),
+    ]
+    """Photos, folders of photos, or data sets; several share one recording, a photo a step."""
+
+    save: Annotated[Path | None, tyro.conf.arg(metavar="FILE.rrd")] = None
+    """Write the recording to a file instead of opening the viewer; with --split, into a folder."""
+
+    screenshot: Annotated[Path | None, tyro.conf.arg(metavar="FILE.png")] = None
+    """Draw every tab into FILE-TAB.png instead of opening the viewer; needs no screen."""
+
+    serve: Switch = False
+    """Serve the viewer to a browser on this machine, until Ctrl-C."""
+
+    connect: Annotated[str | None, tyro.conf.arg(metavar="URL")] = None
+    """Send the recording to a viewer that runs, such as rerun+http://127.0.0.1:9876/proxy."""
+
+    headless: Switch = False
+    """Make the recordings and throw them away: a check that everything works, without a viewer."""
+
+    split: Switch = False
+    """One recording a photo."""
+
+    truth: Annotated[Path | None, tyro.conf.arg(metavar="FILE")] = None
+    """True skyline of a single photo: painted photo, mask, CSV or JSON. Data sets bring theirs."""
+
+    compare: Annotated[str | None, tyro.conf.arg(metavar="NAME")] = None
+    """A second detector beside the first: default, paper, or the file of a filter bank."""
+
+    bank: BankFile = None
+    """Filter bank to use; the shipped one unless given."""
+
+    preset: Preset = "default"
+    """Where the settings below start from: the best that is known, or the published method."""
+
+    config: DetectorConfig = field(default_factory=DetectorConfig)
+    """Single settings of the detector."""
+
+    def run(self) -> int:
+        """Detect, log and show; return the exit status."""
+        if not self.photos:
+            raise UsageError("which photos? Name at least one photo or folder.")
+        self._check_targets()
+        inputs = collect(self.photos)
+        if self.truth and len(inputs) > 1:
+            raise UsageError(f"--truth belongs to one photo, and there are {len(inputs)}.")
+        detector = make_detector(self.bank, self.config)
+        other = None if self.compare is None else self._second(self.compare)
+        failures: list[Failure] = []
+        with self._folder() as folder:
+            files = self._record(inputs, detector, other, folder, failures)
+            if files:
+                self._show(files)
+        return status_after(failures) or (GOOD if files else SOME_FAILED)
+
+    def _check_targets(self) -> None:
+        named = ("save", "screenshot", "serve", "connect", "headless")
+        chosen = [f"--{name}" for name in named if getattr(self, name)]
+        if len(chosen) > 1:
+            raise UsageError(f"{' and '.join(chosen)} exclude each other.")
+        from skyline_viz.viewer import has_display  # noqa: PLC0415  # the viewer is heavy
+
+        if not chosen and not has_display():
+            raise UsageError(
+                "there is no display to open the viewer on: use --save FILE.rrd, --serve, "
+                "or --screenshot FILE.png."
+            )
+
+    def _second(self, name: str) -> Detector:
+        if name in ("default", "paper"):
+            return make_detector(self.bank, config_of("paper" if name == "paper" else "default"))
+        return make_detector(Path(name), self.config)
+
+    @contextmanager
+    def _folder(self) -> Iterator[Path]:
+        """Where recordings are written: where --save says, else for as long as they are shown."""
+        if self.save:
+            folder = self.save if self.split else self.save.parent
+            folder.mkdir(parents=True, exist_ok=True)
+            yield folder
+        else:
+            with tempfile.TemporaryDirectory(prefix="skyline-viz-") as passing:
+                yield Path(passing)
+
+    def _record(
+        self,
+        inputs: Sequence[Input],
+        detector: Detector,
+        other: Detector | None,
+        folder: Path,
+        failures: list[Failure],
+    ) -> list[Path]:
+        """Write the recordings, and return their files."""
+        from skyline_viz.photo import PhotoError  # noqa: PLC0415
+        from skyline_viz.recording import new_recording  # noqa: PLC0415
+
+        of_a_photo = (PhotoError, ValueError, MemoryError)  # what the other photos survive
+        groups = [[one] for one in inputs] if self.split else [list(inputs)]
+        files: list[Path] = []
+        with ProgressBar(len(inputs), "photos") as bar:
+            for group in groups:
+                name = group[0].name if len(group) == 1 else self.photos[0].resolve().name
+                together = self.save if not self.split else None
+                file = together or folder / f"{name}.rrd"
+                with suppress(_Nothing), new_recording(file, name) as recording:
+                    contents = None
+                    for step, one in enumerate(group):
+                        recording.set_time("image", sequence=step)
+                        try:
+                            logged = self._log(recording, one, detector, other, len(group))
+                            contents = contents or logged
+                        except of_a_photo as problem:
+                            failures.append(Failure(one.name, sentence(problem)))
+                        bar.advance()
+                    self._lay_out(recording, contents)
+                    files.append(file)
+        return [file for file in files if file.exists()]
+
+    def _log(
+        self,
+        recording: rr.RecordingStream,
+        one: Input,
+        detector: Detector,
+        other: Detector | None,
+        together: int,
+    ) -> Contents:
+        """Log a photo of `together` ones, and say what the recording now holds."""
+        from skyline_viz.bank_recording import log_path_bins  # noqa: PLC0415
+        from skyline_viz.blueprints import Contents  # noqa: PLC0415
+        from skyline_viz.comparison import log_comparison  # noqa: PLC0415
+        from skyline_viz.evaluation import warm_up  # noqa: PLC0415
+        from skyline_viz.recording import log_detection  # noqa: PLC0415
+
+        photo, truth = one.item.photo(), self._truth_of(one)
+        warm_up()
+        found = detector.detect(photo)
+        fidelity: Fidelity = "full" if together <= FULL_AT_MOST else "lean"
+        alone = together == 1
+        if alone:  # what is logged below is there in every column
+            recording.set_time("column", sequence=0)
+        summary = log_detection(recording, found, truth, name=one.name, fidelity=fidelity)
+        if other:
+            second = other.detect(photo)
+            log_comparison(recording, found, second, truth, str(self.compare), fidelity)
+        if alone:
+            recording.disable_timeline("column")
+            log_path_bins(recording, found)
+        error = "" if summary.a_err is None else f"  A_err {summary.a_err:.2f} px"
+        print(f"{one.name}{error}  margin {summary.margin:.3g}")
+        height, width = found.edges.shape
+        return Contents(
+            height,
+            width,
+            truth=truth is not None,
+            bank=fidelity == "full",
+            path_bins=alone,
+            photos=together,
+            compared=self.compare or "",
+        )
+
+    def _truth_of(self, one: Input) -> Skyline | None:
+        if self.truth is None:
+            return one.item.truth()
+        from skyline_viz.truths import read_truth  # noqa: PLC0415
+
+        return read_truth(self.truth)
+
+    def _lay_out(self, recording: rr.RecordingStream, contents: Contents | None) -> None:
+        from skyline_viz.blueprints import detection_blueprint  # noqa: PLC0415
+
+        if contents is None:
+            raise _Nothing
+        recording.send_blueprint(detection_blueprint(contents))
+
+    def _show(self, files: list[Path]) -> None:
+        """Show recordings, and return when nobody looks any more."""
+        from skyline_viz import viewer  # noqa: PLC0415
+
+        if self.headless:
+            print(f"{counted(len(files), 'recording')} made.")
+        elif self.save:
+            print(f"Look at it with: rerun {self.save}")
+        elif self.screenshot:
+            for file in files:
+                several = f"-{file.stem}" if len(files) > 1 else ""
+                for picture in viewer.save_pictures(file, self.screenshot, several):
+                    print(picture)
+        elif self.connect:
+            viewer.send(files, self.connect)
+        elif self.serve:
+            process, address = viewer.serve(files)
+            print(f"Open {address} in a browser. Ctrl-C ends.", flush=True)
+            viewer.wait_for(process)
+        else:
+            viewer.wait_for(viewer.open_viewer(files))
+
+
+class _Nothing(Exception):  # noqa: N818  # no error: there is nothing to write
+    """No photo of a recording could be read."""

@@ -1,0 +1,57 @@
+"""A second detection beside the first in a recording: its line, its stages, and what differs."""
+
+from __future__ import annotations
+
+import numpy as np
+import rerun as rr
+
+from skyline_viz import entities
+from skyline_viz.column_views import ALTERNATIVE_RADIUS, log_line
+from skyline_viz.detector import Detection
+from skyline_viz.overlay import ALTERNATIVE
+from skyline_viz.recording import Fidelity, log_detection
+from skyline_viz.report import listed_segments
+from skyline_viz.skyline import Skyline
+from skyline_viz.summary import Summary, wrong_segments
+
+
+def log_comparison(
+    recording: rr.RecordingStream,
+    detection: Detection,
+    other: Detection,
+    truth: Skyline | None,
+    name: str,
+    fidelity: Fidelity = "full",
+) -> Summary:
+    """Log a second detection of a photo, after the first one has been logged.
+
+    Its line is the yellow one. Its stages have the paths of the first under `entities.OTHER`.
+
+    Args:
+        recording: Where to.
+        detection: The first detection.
+        other: The second one, of the same photo.
+        truth: The true skyline.
+        name: What to call the second one.
+        fidelity: How much of it to keep.
+
+    Returns:
+        What the second detection comes to.
+    """
+    height = len(detection.photo)
+    summary = log_detection(
+        recording, other, truth, name=name, fidelity=fidelity, under=entities.OTHER
+    )
+    log_line(recording, entities.ALTERNATIVE, other.skyline, ALTERNATIVE, ALTERNATIVE_RADIUS)
+    lower = other.skyline.rows - detection.skyline.rows
+    recording.log(entities.DIFFERENCES, rr.BarChart(lower, color=ALTERNATIVE))
+    apart = wrong_segments(np.abs(lower).astype(np.float64), height)
+    words = listed_segments(apart) or "none"
+    text = (
+        f"**{name}** against the first  \n"
+        f"Columns over 1 % of the height apart: {words}  \n"
+        f"Largest difference {np.abs(lower).max():.0f} px, "
+        f"mean {np.abs(lower).mean():.2f} px\n"
+    )
+    recording.log(entities.COMPARISON, rr.TextDocument(text, media_type="text/markdown"))
+    return summary

@@ -1,0 +1,107 @@
+"""Entity paths of a recording: where each stage is found. Part of the interface.
+
+A second detection beside the first has the same paths under `OTHER`.
+"""
+
+PHOTO = "photo"
+"""The photo."""
+
+EDGES = "edges"
+"""Stage 1: the edge map."""
+
+STRENGTH = "tensor/strength"
+"""Stage 2: gradient strength."""
+
+COHERENCE = "tensor/coherence"
+"""Stage 2: coherence."""
+
+ORIENTATION = "tensor/orientation"
+"""Stage 2: orientation of the gradient."""
+
+BIN = "bin"
+"""Stage 3: bin of each edge pixel."""
+
+SCORE = "score"
+"""Stage 4: score of each edge pixel."""
+
+COST = "cost"
+"""Stage 5: fused nodal cost."""
+
+DETOUR = "detour"
+"""Stage 6: how much dearer the cheapest path through a pixel is: its min-marginal less the best."""
+
+EDGE_PIXELS = "edge_pixels"
+"""Exact values of the stages at the edge pixels, one row a pixel."""
+
+PATH = "skyline/path"
+"""Stage 6: the detected skyline."""
+
+TRUTH = "skyline/truth"
+"""The true skyline."""
+
+ALTERNATIVE = "skyline/alternative"
+"""The skyline of a second detection."""
+
+STRIP = "skyline/strip"
+"""Error of each column as a coloured strip along the lower rim of the photo; the margin where
+there is no truth."""
+
+CHOSEN = "skyline/chosen"
+"""The path's pixel in the chosen column; scrub the `COLUMN` timeline to choose."""
+
+ERRORS = "columns/error"
+"""Error of each column, in pixels."""
+
+MARGINS = "columns/margin"
+"""Margin of each column, a cost."""
+
+NODE_COSTS = "columns/node_cost"
+"""Nodal cost of the path's pixel in each column."""
+
+LINK_COSTS = "columns/link_cost"
+"""Link cost that the path pays to reach each column."""
+
+DIFFERENCES = "columns/difference"
+"""How far a second skyline lies below the first in each column, in pixels."""
+
+COMPARISON = "comparison"
+"""How the second skyline differs, in Markdown."""
+
+METRICS = "metrics"
+"""`METRICS`/a_err, /worst_error and /margin of each photo, as scalars."""
+
+TIMINGS = "timings"
+"""`TIMINGS`/STAGE: milliseconds of each stage, as scalars."""
+
+REPORT = "report"
+"""The report, in Markdown."""
+
+BANK_FILTERS = "bank/filters"
+"""Mosaic of the filters."""
+
+BANK_SAMPLES = "bank/samples"
+"""Training samples of each bin."""
+
+BANK_CHOSEN = "bank/chosen"
+"""Frame around the filter that the chosen path pixel used."""
+
+BANK_USED = "bank/used"
+"""What is known about that pixel, in Markdown."""
+
+OTHER = "other"
+"""Parent of everything about a second detection."""
+
+IMAGE = "image"
+"""Timeline: the number of the photo in a recording of several."""
+
+COLUMN = "column"
+"""Timeline: the column whose path pixel is looked at."""
+
+
+def below(parent: str, entity: str) -> str:
+    """Path of an entity under a parent, or of itself.
+
+    >>> below(OTHER, SCORE), below("", SCORE)
+    ('other/score', 'score')
+    """
+    return f"{parent}/{entity}" if parent else entity

@@ -1,0 +1,103 @@
+"""How sure the cheapest path is: what it would cost to go elsewhere.
+
+The min-marginal of a pixel is the cost of the cheapest whole path through it: its forward cost,
+which the path search leaves behind, plus its backward cost less its own. The backward sweep keeps
+a column at a time, so that no second table is ever held.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numba
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.arrays import F32, F64, read_only
+
+APART = 5
+"""Rows within which two paths count as the same one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Uncertainty:
+    """How sure a path is, column by column and pixel by pixel."""
+
+    margins: F64
+    """``(W,)`` the gap between a column's best min-marginal and the best one more than `APART`
+    rows away: small is uncertain, infinite where nothing else is possible."""
+
+    detour: F32
+    """``(H, W)`` how much dearer than the best path the best one through each pixel is."""
+
+    def __post_init__(self) -> None:
+        """Freeze the arrays."""
+        read_only(self.margins)
+        read_only(self.detour)
+
+
+def uncertainty(
+    cost: npt.NDArray[np.floating],
+    forward: F64,
+    delta: int,
+    link_weight: float,
+    apart: int = APART,
+) -> Uncertainty:
+    """How sure the path is that `path.shortest_path` found with the same costs.
+
+    Args:
+        cost: ``(H, W)`` nodal costs; ``inf`` forbids a pixel.
+        forward: ``(H, W)`` forward costs, `path.Path.forward`.
+        delta: Largest change of row between neighbouring columns, in pixels.
+        link_weight: Cost of one pixel of row change.
+        apart: Rows within which two paths count as the same one.
+    """
+    height, width = cost.shape
+    margins = np.empty(width)
+    detour = np.empty((width, height), np.float32)
+    columns = np.ascontiguousarray(cost.T)
+    reach = min(int(delta), height - 1)
+    _sweep_back(
+        columns, np.ascontiguousarray(forward.T), reach, float(link_weight), apart, margins, detour
+    )
+    return Uncertainty(margins=margins, detour=detour.T)
+
+
+@numba.njit(cache=True, nogil=True)
+def _sweep_back(
+    columns: F32,
+    forward: F64,
+    reach: int,
+    link_weight: float,
+    apart: int,
+    margins: F64,
+    detour: F32,
+) -> None:
+    width, height = columns.shape
+    best_cost = forward[-1].min()
+    before = np.zeros(height)  # what follows each pixel, of the column to the right
+    after = np.zeros(height)
+    through = np.empty(height)
+    for column in range(width - 1, -1, -1):
+        if column < width - 1:
+            after[:] = before
+            for change in range(1, reach + 1):
+                link = link_weight * change
+                for row in range(height - change):
+                    down = before[row + change] + link
+                    after[row] = min(after[row], down)
+                for row in range(change, height):
+                    up = before[row - change] + link
+                    after[row] = min(after[row], up)
+        for row in range(height):
+            through[row] = forward[column, row] + after[row]
+            detour[column, row] = max(through[row] - best_cost, 0.0)
+        best = through.argmin()
+        second = np.inf
+        for row in range(best - apart):
+            second = min(second, through[row])
+        for row in range(best + apart + 1, height):
+            second = min(second, through[row])
+        margins[column] = max(second - through[best], 0.0)
+        for row in range(height):
+            before[row] = after[row] + columns[column, row]

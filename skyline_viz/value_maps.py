@@ -1,0 +1,169 @@
+"""Maps of values for the viewer: every pixel in its colour, every colour with its value and unit.
+
+A map is a `SegmentationImage`: each class stands for a value, an `AnnotationContext` gives it its
+colour and its words. So hovering a pixel says "strength 41.2 grey levels/px" instead of a shade,
+pixels without a value are transparent, and a sparse map costs a fraction of a dense float image.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import rerun as rr
+from matplotlib import colormaps
+
+from skyline_viz.arrays import Int
+
+COARSE, FINE = 255, 4095
+"""Values that a map tells apart: one byte a pixel in lean recordings, two in full ones."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What a map shows."""
+
+    name: str
+    """Its name, which hovering a pixel shows before the value."""
+
+    colours: str = "viridis"
+    """A colour map of matplotlib; perceptually uniform, so that it reads with colour-blindness."""
+
+    unit: str = ""
+    """What stands behind the value; nothing for plain numbers."""
+
+    span: tuple[float, float] = (0.0, 1.0)
+    """Part of the colour map that is used: its black end would be lost on the black background."""
+
+    contrast: float = 1.0
+    """Below 1, small values get more of the colours: they grow with this power of the value."""
+
+    low: float | None = None
+    """Value of the first colour; the smallest one of the map unless given."""
+
+    high: float | None = None
+    """Value of the last colour; the largest one of the map unless given."""
+
+    def label(self, value: float, step: float) -> str:
+        """Name, value and unit, with as many digits as a step can tell apart.
+
+        >>> Quantity("strength", unit=" grey levels/px").label(41.23, step=0.1)
+        'strength 41.2 grey levels/px'
+        """
+        digits = max(0, math.ceil(-math.log10(step)))
+        return f"{self.name} {value:.{digits}f}{self.unit}"
+
+
+@dataclass(frozen=True, eq=False)
+class ValueMap:
+    """A map, ready to be logged."""
+
+    classes: npt.NDArray[np.unsignedinteger[Any]]
+    """``(H, W)`` 0 without a value, else 1 + the level."""
+
+    levels: int
+    """Number of levels."""
+
+    quantity: Quantity
+    """What it shows."""
+
+    low: float
+    """Value of the first level."""
+
+    high: float
+    """Value of the last one."""
+
+    def values(self) -> npt.NDArray[np.float64]:
+        """Value of each pixel to within half a step, ``(H, W)``; NaN without one."""
+        step = (self.high - self.low) / (self.levels - 1)
+        return np.where(self.classes > 0, self.low + (self.classes - 1.0) * step, np.nan)
+
+    def log(self, recording: rr.RecordingStream, entity: str) -> None:
+        """Log the map and what its classes mean."""
+        recording.log(
+            entity,
+            _legend(self.quantity, self.low, self.high, self.levels),
+            rr.SegmentationImage(self.classes, opacity=1.0),
+        )
+
+
+def sparse_map(
+    quantity: Quantity,
+    shape: tuple[int, int],
+    rows: Int,
+    columns: Int,
+    values: npt.NDArray[np.floating],
+    levels: int,
+) -> ValueMap:
+    """Map of values at some pixels.
+
+    Args:
+        quantity: What they are.
+        shape: Height and width.
+        rows: ``(n,)`` row of each value.
+        columns: ``(n,)`` its column.
+        values: ``(n,)``.
+        levels: Values to tell apart, `COARSE` or `FINE`.
+    """
+    low, high = _range(quantity, values)
+    classes = np.zeros(shape, _dtype(levels))
+    classes[rows, columns] = _levels(values, low, high, levels)
+    return ValueMap(classes, levels, quantity, low, high)
+
+
+def dense_map(quantity: Quantity, values: npt.NDArray[np.floating], levels: int) -> ValueMap:
+    """Map ``(H, W)`` of values; NaN is no value, and infinite counts as the end of the range."""
+    known = ~np.isnan(values)
+    low, high = _range(quantity, values[np.isfinite(values)])
+    classes = np.where(known, _levels(np.where(known, values, low), low, high, levels), 0)
+    return ValueMap(classes.astype(_dtype(levels)), levels, quantity, low, high)
+
+
+def _dtype(levels: int) -> type[np.uint8 | np.uint16]:
+    return np.uint8 if levels <= COARSE else np.uint16
+
+
+def _range(quantity: Quantity, values: npt.NDArray[np.floating]) -> tuple[float, float]:
+    """Range of a map, rounded outwards to halves of a power of ten: photos share their legends."""
+    low, high = quantity.low, quantity.high
+    if low is None:
+        low = float(values.min(initial=0.0))
+    if high is None:
+        high = float(values.max(initial=low))
+    span = high - low
+    if span <= 0:
+        return low, low + 1.0
+    step = 10.0 ** math.floor(math.log10(span)) / 2
+    first = low if quantity.low is not None else math.floor(low / step) * step
+    last = high if quantity.high is not None else math.ceil(high / step) * step
+    return first, last
+
+
+def _levels(
+    values: npt.NDArray[np.floating], low: float, high: float, levels: int
+) -> npt.NDArray[np.uint16]:
+    scaled: npt.NDArray[np.floating] = (values - low) * ((levels - 1) / (high - low)) + 1.5
+    classes: npt.NDArray[np.uint16] = np.clip(scaled, 1.0, levels).astype(np.uint16)
+    return classes
+
+
+@lru_cache(maxsize=64)
+def _legend(quantity: Quantity, low: float, high: float, levels: int) -> rr.AnnotationContext:
+    """Colour and words of each level. Building one takes a millisecond, so they are kept."""
+    step = (high - low) / (levels - 1)
+    first, last = quantity.span
+    places = first + (last - first) * np.linspace(0, 1, levels) ** quantity.contrast
+    colours = colormaps[quantity.colours](places, bytes=True)
+    return rr.AnnotationContext(
+        [
+            rr.AnnotationInfo(0, "", (0, 0, 0, 0)),
+            *(
+                rr.AnnotationInfo(1 + level, quantity.label(low + level * step, step), tuple(rgba))
+                for level, rgba in enumerate(colours.tolist())
+            ),
+        ]
+    )

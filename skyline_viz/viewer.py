@@ -1,0 +1,272 @@
+"""The Rerun viewer as a process: open it, serve it to a browser, or take pictures without a screen.
+
+Whatever is started here listens on this machine alone; the viewer's own default is every network.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from time import monotonic, sleep
+from typing import Any
+
+import numpy as np
+import rerun as rr
+from PIL import Image
+from rerun.experimental import ViewerClient
+
+from skyline_viz.files import replacing
+
+LOOPBACK = "127.0.0.1"
+"""The only address on which anything listens."""
+
+WINDOW = (1280, 800)
+"""Width and height of pictures, in pixels."""
+
+_START_SECONDS = 30.0
+_PICTURE_SECONDS = 60.0
+_ERRORS = (ConnectionError, RuntimeError, OSError, ValueError)  # what a client of a viewer raises
+
+
+class ViewerError(RuntimeError):
+    """The viewer could not be started or did not do its work; the message says why."""
+
+
+def has_display() -> bool:
+    """Whether a window can be opened here: there is a screen, and it is this machine's."""
+    if os.environ.get("CI"):
+        return False
+    if sys.platform in ("darwin", "win32"):
+        return "SSH_CONNECTION" not in os.environ
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def open_viewer(sources: Sequence[str | Path]) -> subprocess.Popen[bytes]:
+    """Open the viewer's window on recordings, and return at once.
+
+    Args:
+        sources: Recording files, or addresses of a server's recordings.
+    """
+    arguments = ["--port", "auto", *map(str, sources)]
+    return _start(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def serve(sources: Sequence[str | Path]) -> tuple[subprocess.Popen[bytes], str]:
+    """Serve recordings to a browser on this machine.
+
+    Returns:
+        The server's process, and the address to open.
+    """
+    page, data = free_port(), free_port()
+    arguments = ["--serve-web", "--web-viewer-port", str(page), "--port", str(data)]
+    process = _start([*arguments, *map(str, sources)], stdout=subprocess.DEVNULL)
+    address = f"http://{LOOPBACK}:{page}?url=rerun%2Bhttp%3A%2F%2F{LOOPBACK}%3A{data}%2Fproxy"
+    deadline = monotonic() + _START_SECONDS
+    while not _listens(page):
+        if process.poll() is not None or monotonic() > deadline:
+            process.terminate()
+            raise ViewerError("the viewer's web server did not start.")
+        sleep(0.05)
+    return process, address
+
+
+@contextmanager
+def headless_viewer(
+    sources: Sequence[str | Path] = (), window: tuple[int, int] = WINDOW
+) -> Iterator[ViewerClient]:
+    """Run a viewer without a screen, and hand out what drives it.
+
+    Args:
+        sources: Recording files or addresses to open.
+        window: Width and height of its picture, in pixels.
+
+    Raises:
+        ViewerError: It does not start; mostly because there is no Vulkan driver.
+    """
+    port = free_port()
+    arguments = ["--headless", "--window-size", f"{window[0]}x{window[1]}", "--port", str(port)]
+    with tempfile.TemporaryFile() as log:
+        process = _start([*arguments, *map(str, sources)], stdout=log, stderr=log)
+        try:
+            yield _connected(process, port, log)
+        finally:
+            process.terminate()
+            process.wait()
+
+
+def save_pictures(source: Path, path: Path, more: str = "") -> Iterator[Path]:
+    """Render every tab of a recording into a file of its own, ``NAME-TAB.png``.
+
+    Args:
+        source: Recording file.
+        path: Where to, without the tab.
+        more: What comes before the tab in the names.
+
+    Yields:
+        The files as they are written.
+
+    Raises:
+        ViewerError: No viewer, or a picture stays blank.
+    """
+    with headless_viewer([source]) as client:
+        for tab in tab_names(client):
+            show_tab(client, tab)
+            name = f"{path.stem}{more}-{tab.lower().replace(' ', '-')}.png"
+            picture = settled_picture(client)
+            with replacing(path.with_name(name)) as temporary:
+                picture.save(temporary, "PNG")
+            yield path.with_name(name)
+
+
+def send(sources: Sequence[Path], address: str) -> None:
+    """Send recordings to a viewer that runs.
+
+    Raises:
+        ViewerError: None runs there.
+    """
+    try:
+        ViewerClient.connect(address).get_state()
+    except _ERRORS as error:
+        raise ViewerError(f"no viewer answers at {address}.") from error
+    for source in sources:
+        stream = rr.RecordingStream("skyline-viz")
+        stream.connect_grpc(address)
+        stream.log_file_from_path(source)
+        stream.flush()
+        stream.disconnect()
+
+
+def wait_for(process: subprocess.Popen[bytes]) -> None:
+    """Wait until a viewer is closed; Ctrl-C closes it."""
+    try:
+        process.wait()
+    except KeyboardInterrupt:
+        process.terminate()
+        process.wait()
+
+
+def tab_names(client: ViewerClient) -> list[str]:
+    """Names of the tabs of what a viewer shows, from left to right."""
+    _wait_for_views(client)
+    return [name for name, _, _ in _tabs(client)]
+
+
+def show_tab(client: ViewerClient, tab: str) -> None:
+    """Bring a tab to the front.
+
+    Raises:
+        ViewerError: There is no such tab.
+    """
+    _wait_for_views(client)
+    for name, path, child in _tabs(client):
+        if name == tab:
+            blueprint = dict(client.get_blueprint().blueprint)
+            changed = {**blueprint[path]["ContainerBlueprint"], "active_tab": child}
+            client.set_blueprint(
+                {**blueprint, path: {"ContainerBlueprint": changed}}, of="recording"
+            )
+            return
+    raise ViewerError(f"the recording has no tab called {tab}.")
+
+
+def _tabs(client: ViewerClient) -> list[tuple[str, str, str]]:
+    """Name of each tab, entity path of the container that it is in, and its own."""
+    containers: dict[str, Any] = {
+        path: parts["ContainerBlueprint"]
+        for path, parts in client.get_blueprint().blueprint.items()
+        if "ContainerBlueprint" in parts
+    }
+    return [
+        (containers[f"/{child}"]["display_name"], path, child)
+        for path, container in containers.items()
+        if container.get("container_kind") == "Tabs"
+        for child in container["contents"]
+        if "display_name" in containers.get(f"/{child}", {})
+    ]
+
+
+def settled_picture(client: ViewerClient) -> Image.Image:
+    """Picture of a viewer when nothing moves any more.
+
+    Raises:
+        ViewerError: It stays blank, or never settles.
+    """
+    _wait_for_views(client)
+    before: np.ndarray | None = None
+    same = 0
+    deadline = monotonic() + _PICTURE_SECONDS
+    while monotonic() < deadline:
+        picture = Image.open(io.BytesIO(client.take_screenshot())).convert("RGB")
+        now = np.asarray(picture)
+        same = same + 1 if before is not None and np.array_equal(now, before) else 0
+        if same >= 2 and now.std() > 1:
+            return picture
+        before = now
+        sleep(0.15)  # maps are decoded in the background, between two pictures that agree
+    raise ViewerError(f"the viewer showed no steady picture within {_PICTURE_SECONDS:.0f} s.")
+
+
+def free_port() -> int:
+    """A port on which nothing listens now."""
+    with socket.socket() as one:
+        one.bind((LOOPBACK, 0))
+        return int(one.getsockname()[1])
+
+
+def _start(arguments: Sequence[str], **streams: Any) -> subprocess.Popen[bytes]:  # noqa: ANN401
+    import rerun_cli  # noqa: PLC0415  # the package around the viewer's program
+
+    name = "rerun.exe" if sys.platform == "win32" else "rerun"
+    program = Path(str(rerun_cli.__file__)).with_name(name)
+    common = ["--bind", LOOPBACK, "--hide-welcome-screen"]
+    environment = {"RUST_LOG": "warn", **os.environ}
+    try:
+        return subprocess.Popen([program, *common, *arguments], env=environment, **streams)  # noqa: S603
+    except OSError as error:
+        raise ViewerError(f"the viewer {program} cannot be started: {error.strerror}.") from error
+
+
+def _connected(process: subprocess.Popen[bytes], port: int, log: Any) -> ViewerClient:  # noqa: ANN401
+    deadline = monotonic() + _START_SECONDS
+    while monotonic() < deadline:
+        if process.poll() is not None:
+            break
+        try:
+            client = ViewerClient.connect(f"rerun+http://{LOOPBACK}:{port}/proxy")
+            client.get_state()
+        except _ERRORS:
+            sleep(0.1)
+        else:
+            return client
+    log.seek(0)
+    said = log.read().decode(errors="replace")
+    if "adapter" in said.lower() or "vulkan" in said.lower():
+        raise ViewerError(
+            "pictures without a screen need a Vulkan driver; "
+            "on Debian and Ubuntu: apt-get install mesa-vulkan-drivers libvulkan1."
+        )
+    last = said.strip().splitlines()[-1:] or ["it said nothing"]
+    raise ViewerError(f"the viewer did not start: {last[0]}.")
+
+
+def _wait_for_views(client: ViewerClient) -> None:
+    deadline = monotonic() + _PICTURE_SECONDS
+    while monotonic() < deadline:
+        state = client.get_state()
+        if state.views and not state.loading:
+            return
+        sleep(0.05)
+    raise ViewerError("the viewer found nothing to show in the recording.")
+
+
+def _listens(port: int) -> bool:
+    with socket.socket() as one:
+        one.settimeout(0.5)
+        return one.connect_ex((LOOPBACK, port)) == 0
