@@ -135,7 +135,9 @@ def log_detection(
     if fidelity == "full":
         log_filter_bank(recording, detection.bank, under=under)
         if not under:
-            _lay_out(recording, detection_blueprint(Contents(*photo.shape[:2], truth is not None)))
+            _lay_out(
+                recording, detection_blueprint(Contents(height, photo.shape[1], truth is not None))
+            )
     return summary
 
 
