@@ -19,6 +19,7 @@ from skyline_viz.batch import BatchError, sentence
 from skyline_viz.commands.demo import Demo
 from skyline_viz.commands.detect import Detect
 from skyline_viz.commands.evaluate import Evaluate
+from skyline_viz.commands.gallery import GalleryCommand
 from skyline_viz.commands.inspect import Inspect
 from skyline_viz.commands.messages import (
     BROKEN_PIPE,
@@ -112,6 +113,7 @@ def _commands(preset: Preset) -> Any:  # noqa: ANN401  # a union that is made at
     defaults = {
         "detect": Detect(missing, config=config),
         "inspect": Inspect(missing, config=config),
+        "gallery": GalleryCommand(config=config),
         "train": Train(missing, missing, training=TrainingConfig(detector=config)),
         "evaluate": Evaluate(missing, config=config),
         "render": Render(),

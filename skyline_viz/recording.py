@@ -70,6 +70,7 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
         batches = rr.ChunkBatcherConfig.DEFAULT()
         batches.flush_num_bytes = _BATCH  # compress maps while the next ones are made
         recording = rr.RecordingStream(APPLICATION, recording_id=name, batcher_config=batches)
+        recording.set_log_time_enabled(False)  # else a photo would be a film of its stages
         recording.save(temporary)
         try:
             recording.send_recording_name(name)

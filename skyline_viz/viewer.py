@@ -32,6 +32,7 @@ WINDOW = (1280, 800)
 
 _START_SECONDS = 30.0
 _PICTURE_SECONDS = 60.0
+_STEADY = 4  # pictures in a row that agree, 0.15 s apart: thumbnails come one by one
 _ERRORS = (ConnectionError, RuntimeError, OSError, ValueError)  # what a client of a viewer raises
 
 
@@ -99,6 +100,22 @@ def headless_viewer(
         finally:
             process.terminate()
             process.wait()
+
+
+def save_picture(source: str | Path, path: Path) -> None:
+    """Render what a source shows first into a PNG file.
+
+    Args:
+        source: Recording file, or an address.
+        path: Where to.
+
+    Raises:
+        ViewerError: No viewer, or the picture stays blank.
+    """
+    with headless_viewer([source]) as client:
+        picture = settled_picture(client)
+    with replacing(path) as temporary:
+        picture.save(temporary, "PNG")
 
 
 def save_pictures(source: Path, path: Path, more: str = "") -> Iterator[Path]:
@@ -198,7 +215,6 @@ def settled_picture(client: ViewerClient) -> Image.Image:
     Raises:
         ViewerError: It stays blank, or never settles.
     """
-    _wait_for_views(client)
     before: np.ndarray | None = None
     same = 0
     deadline = monotonic() + _PICTURE_SECONDS
@@ -206,7 +222,7 @@ def settled_picture(client: ViewerClient) -> Image.Image:
         picture = Image.open(io.BytesIO(client.take_screenshot())).convert("RGB")
         now = np.asarray(picture)
         same = same + 1 if before is not None and np.array_equal(now, before) else 0
-        if same >= 2 and now.std() > 1:
+        if same >= _STEADY and not client.get_state().loading and now.std() > 1:
             return picture
         before = now
         sleep(0.15)  # maps are decoded in the background, between two pictures that agree

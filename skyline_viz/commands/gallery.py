@@ -1,0 +1,168 @@
+"""``skyline-viz gallery``: a whole data set as cards, the worst first."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import tyro
+
+from skyline_viz.batch import Failure
+from skyline_viz.commands.inputs import Input, collect, output_folder
+from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, status_after
+from skyline_viz.commands.settings import BankFile, Folder, Preset, Switch, make_detector
+from skyline_viz.config import DetectorConfig
+
+if TYPE_CHECKING:
+    from skyline_viz.detector import Detector
+    from skyline_viz.gallery import Entry
+    from skyline_viz.gallery_table import ServedGallery
+
+LOOK_EVERY = 0.5
+"""Seconds between two looks at what was edited in the viewer."""
+
+
+@dataclass(frozen=True)
+class GalleryCommand:
+    """Detect a data set and show it as cards, the worst first: review, comment, look inside."""
+
+    photos: Annotated[
+        tuple[Path, ...],
+        tyro.conf.Positional,
+        tyro.conf.arg(metavar="DATASET", help_behavior_hint="(required)"),
+    ] = ()
+    """Data set, folder of photos, or photos."""
+
+    out: Folder = Path("skyline-gallery")
+    """Folder of the gallery: recordings, gallery.json, flags.json. What is there is not redone."""
+
+    list_flags: Switch = False
+    """Print what was reviewed and commented, a photo a line, separated by tabs; nothing else."""
+
+    screenshot: Annotated[Path | None, tyro.conf.arg(metavar="FILE.png")] = None
+    """Draw the cards into a file instead of opening the viewer; needs no screen."""
+
+    serve: Switch = False
+    """Serve the gallery until Ctrl-C without opening a viewer."""
+
+    workers: int = 0
+    """Processes to work in; 0 chooses by the number of photos."""
+
+    bank: BankFile = None
+    """Filter bank to use; the shipped one unless given."""
+
+    preset: Preset = "default"
+    """Where the settings below start from: the best that is known, or the published method."""
+
+    config: DetectorConfig = field(default_factory=DetectorConfig)
+    """Single settings of the detector."""
+
+    def run(self) -> int:
+        """Detect what is new, show, and keep what people say; return the exit status."""
+        if self.list_flags:
+            return list_flags(self.out)
+        if not self.photos:
+            raise UsageError("which data set? Name a folder of photos.")
+        if self.screenshot and self.serve:
+            raise UsageError("--screenshot and --serve exclude each other.")
+        inputs = collect(self.photos)
+        output_folder(self.out, (one.item for one in inputs))
+        detector = make_detector(self.bank, self.config)
+        entries, failures = build(self.out, inputs, detector, self.workers)
+        if not entries:
+            return status_after(failures) or SOME_FAILED
+        if self.screenshot:
+            show_picture(self.out, entries, self.screenshot)
+        else:
+            show(self.out, entries, window=not self.serve)
+        return status_after(failures)
+
+
+def build(
+    out: Path, inputs: Sequence[Input], detector: Detector, workers: int
+) -> tuple[list[Entry], list[Failure]]:
+    """Bring a gallery up to date, and return its photos, the worst first, and those that failed."""
+    from skyline_viz.gallery import Gallery, Shot, by_need  # noqa: PLC0415
+
+    shots = [Shot(one.name, one.item) for one in inputs]
+    entries: list[Entry] = []
+    failures: list[Failure] = []
+    for outcome in Gallery(out).build(shots, detector, workers):
+        if isinstance(outcome, Failure):
+            failures.append(outcome)
+        else:
+            entries.append(outcome)
+    print(f"{counted(len(entries), 'photo')} in {out}")
+    return by_need(entries), failures
+
+
+def show(out: Path, entries: Sequence[Entry], *, window: bool) -> None:
+    """Serve a gallery, in a window where there is a display, until it is closed or Ctrl-C."""
+    from skyline_viz.viewer import has_display, open_viewer  # noqa: PLC0415
+
+    with _served(out, entries) as gallery, _stopped_politely() as stop:
+        viewer = None
+        if window and has_display():
+            viewer = open_viewer([gallery.address])
+        else:
+            if window:
+                say("there is no display to open the viewer on; --screenshot FILE.png needs none.")
+            print(f"Look at it with: rerun {gallery.address}")
+            print("Ctrl-C ends.", flush=True)
+        while not stop.wait(LOOK_EVERY) and (viewer is None or viewer.poll() is None):
+            gallery.save_edits()
+        if viewer is not None:
+            viewer.terminate()
+
+
+def show_picture(out: Path, entries: Sequence[Entry], path: Path) -> None:
+    """Draw the cards of a gallery into a file."""
+    from skyline_viz.viewer import save_picture  # noqa: PLC0415
+
+    with _served(out, entries) as gallery:
+        save_picture(gallery.address, path)
+    print(path)
+
+
+def list_flags(out: Path) -> int:
+    """Print name, whether reviewed (1 or 0) and comment of each photo that has either."""
+    from skyline_viz.gallery import Gallery  # noqa: PLC0415
+
+    if not out.is_dir():
+        raise UsageError(f"{out} is no gallery; --out names its folder.")
+    for name, flag in Gallery(out).flags().items():
+        comment = " ".join(flag.comment.split())
+        print(f"{name}\t{int(flag.reviewed)}\t{comment}")
+    return GOOD
+
+
+@contextmanager
+def _served(out: Path, entries: Sequence[Entry]) -> Iterator[ServedGallery]:
+    from skyline_viz.gallery import Gallery  # noqa: PLC0415
+    from skyline_viz.gallery_table import served  # noqa: PLC0415
+
+    truth = any(entry.a_err is not None for entry in entries)
+    with served(Gallery(out), entries, truth=truth) as gallery:
+        yield gallery
+
+
+@contextmanager
+def _stopped_politely() -> Iterator[threading.Event]:
+    """Let Ctrl-C and a plain kill end the block, instead of cutting it short."""
+    stop = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield stop
+        return
+    before = {one: signal.getsignal(one) for one in (signal.SIGINT, signal.SIGTERM)}
+    for one in before:
+        signal.signal(one, lambda *_: stop.set())
+    try:
+        yield stop
+    finally:
+        for one, handler in before.items():
+            signal.signal(one, handler)

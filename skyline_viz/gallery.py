@@ -1,0 +1,252 @@
+"""A data set as a gallery: one small recording a photo, what it came to, and what people said.
+
+A gallery is a folder::
+
+    recordings/NAME.rrd   stages of each photo, lean
+    gallery.json          what each detection came to, and what it was made from
+    flags.json            which photos are reviewed, and comments
+
+Every file is whole at any time. A photo is detected again only when it, its truth, the filter bank
+or the configuration has changed since, so a run that was interrupted goes on where it stopped.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import partial
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+from skyline_viz.batch import Failure, run
+from skyline_viz.datasets import DatasetItem
+from skyline_viz.detector import Detector
+from skyline_viz.evaluation import warm_up
+from skyline_viz.files import write_text
+from skyline_viz.recording import log_detection, new_recording
+from skyline_viz.report import listed_segments
+
+VERSION = 1
+"""Of the recordings; another one makes all of them anew."""
+
+_SAVE_EVERY = 1.0  # seconds
+
+
+class GalleryError(ValueError):
+    """A gallery's file is damaged; the message names it and says why."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A photo of a gallery, and what its detection came to; see `summary.Summary`."""
+
+    name: str
+    """Unique in the gallery; also the name of its recording."""
+
+    photo: str
+    """The photo's file."""
+
+    made_from: str
+    """Digest of photo, truth, filter bank and configuration."""
+
+    margin: float
+    """How sure the path is; small is uncertain."""
+
+    unsure_column: int
+    """Column with the smallest margin."""
+
+    a_err: float | None = None
+    """Mean error in pixels; None without a truth."""
+
+    worst_column: int | None = None
+    """Column with the largest error."""
+
+    worst_error: float | None = None
+    """Its error in pixels."""
+
+    gross_miss: bool | None = None
+    """Whether `a_err` is over 5 % of the image height."""
+
+    segments: tuple[tuple[int, int], ...] | None = None
+    """First and last column of each run of wrong columns."""
+
+    @property
+    def wrong(self) -> str:
+        """The segments that went wrong, in words."""
+        return listed_segments(self.segments or (), most=2)
+
+
+@dataclass(frozen=True)
+class Flag:
+    """What people said about a photo."""
+
+    reviewed: bool = False
+    """Whether somebody has looked at it."""
+
+    comment: str = ""
+    """Their comment."""
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A photo to put into a gallery."""
+
+    name: str
+    """Unique in the gallery, and fit for a file name."""
+
+    item: DatasetItem
+    """The photo, and its truth where there is one."""
+
+
+@dataclass(frozen=True)
+class Gallery:
+    """The files of a gallery."""
+
+    folder: Path
+    """Its folder; made when first written to."""
+
+    def recording(self, name: str) -> Path:
+        """File of a photo's recording."""
+        return self.folder / "recordings" / f"{name}.rrd"
+
+    def entries(self) -> dict[str, Entry]:
+        """Photos that were done, by name.
+
+        Raises:
+            GalleryError: The file is damaged.
+        """
+        entries = {}
+        for one in _read(self.folder / "gallery.json", "photos"):
+            segments = one.pop("segments", None)
+            pairs = None if segments is None else tuple((int(a), int(b)) for a, b in segments)
+            entry = _made(Entry, self.folder / "gallery.json", one | {"segments": pairs})
+            entries[entry.name] = entry
+        return entries
+
+    def flags(self) -> dict[str, Flag]:
+        """What people said, by name, also of photos that are no longer in the data set.
+
+        Raises:
+            GalleryError: The file is damaged.
+        """
+        path = self.folder / "flags.json"
+        return {one.pop("name", ""): _made(Flag, path, one) for one in _read(path, "flags")}
+
+    def save_entries(self, entries: Sequence[Entry]) -> None:
+        """Write what was done."""
+        _write(self.folder / "gallery.json", "photos", [asdict(entry) for entry in entries])
+
+    def save_flags(self, flags: dict[str, Flag]) -> None:
+        """Write what people said."""
+        said = [{"name": name, **asdict(flag)} for name, flag in sorted(flags.items())]
+        _write(self.folder / "flags.json", "flags", said)
+
+    def build(
+        self, shots: Sequence[Shot], detector: Detector, workers: int = 0
+    ) -> Iterator[Entry | Failure]:
+        """Detect and record what is not there yet; yield each photo's entry, or why it failed.
+
+        Args:
+            shots: The photos.
+            detector: The detector.
+            workers: Number of processes, see `batch.run`.
+
+        Raises:
+            GalleryError: The gallery's file is damaged.
+        """
+        known = self.entries()
+        digest = _digest_of(detector)
+        tasks = [_Task(shot.name, shot.item, known.get(shot.name)) for shot in shots]
+        entries = {shot.name: known[shot.name] for shot in shots if shot.name in known}
+        saved = monotonic()
+        try:
+            for outcome in run(partial(_work, self, detector, digest), tasks, workers=workers):
+                if isinstance(outcome, Entry):
+                    entries[outcome.name] = outcome
+                else:
+                    entries.pop(outcome.name, None)
+                if monotonic() - saved > _SAVE_EVERY:
+                    self.save_entries(list(entries.values()))
+                    saved = monotonic()
+                yield outcome
+        finally:
+            self.save_entries(list(entries.values()))
+
+
+def by_need(entries: Sequence[Entry]) -> list[Entry]:
+    """Entries in the order in which to look at them.
+
+    Those with a truth first, the largest error before; then those without, the least sure before.
+    """
+    return sorted(
+        entries,
+        key=lambda one: (one.a_err is None, -(one.a_err or 0.0), one.margin, one.name),
+    )
+
+
+@dataclass(frozen=True)
+class _Task:
+    name: str
+    item: DatasetItem
+    known: Entry | None
+
+
+def _work(gallery: Gallery, detector: Detector, digest: str, task: _Task) -> Entry:
+    item = task.item
+    made_from = _digest_of_files(digest, item)
+    file = gallery.recording(task.name)
+    if task.known and task.known.made_from == made_from and file.exists():
+        return replace(task.known, photo=str(item.photo_path))
+    photo, truth = item.photo(), item.truth()
+    warm_up()
+    detection = detector.detect(photo)
+    with new_recording(file, task.name) as recording:
+        summary = log_detection(recording, detection, truth, name=task.name, fidelity="lean")
+    return Entry(name=task.name, photo=str(item.photo_path), made_from=made_from, **vars(summary))
+
+
+def _digest_of(detector: Detector) -> str:
+    bank = detector.bank
+    digest = hashlib.sha256(f"{VERSION} {detector.config} {bank.bins} {bank.provenance}".encode())
+    for array in (bank.filters, bank.samples, bank.terrain):
+        digest.update(array.tobytes())
+    return digest.hexdigest()
+
+
+def _digest_of_files(start: str, item: DatasetItem) -> str:
+    digest = hashlib.sha256(start.encode())
+    for path in (item.photo_path, item.truth_path):
+        if path is not None:
+            with path.open("rb") as file:
+                digest.update(hashlib.file_digest(file, "sha256").digest())
+    return digest.hexdigest()
+
+
+def _read(path: Path, key: str) -> list[dict[str, Any]]:
+    if not path.exists():
+        return []
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+        found = document[key]
+        if document["version"] != VERSION or not all(isinstance(one, dict) for one in found):
+            raise ValueError
+    except (ValueError, LookupError, TypeError) as error:
+        raise GalleryError(
+            f"{path} is damaged or of another version; move it away to start afresh."
+        ) from error
+    return list(found)
+
+
+def _made(kind: Any, path: Path, values: dict[str, Any]) -> Any:  # noqa: ANN401
+    try:
+        return kind(**values)
+    except TypeError as error:
+        raise GalleryError(f"{path} is damaged: {error}.") from error
+
+
+def _write(path: Path, key: str, values: list[dict[str, Any]]) -> None:
+    text = json.dumps({"version": VERSION, key: values}, indent=1, ensure_ascii=False)
+    write_text(path, text + "\n")

@@ -1,0 +1,161 @@
+"""A gallery as a table of cards in the viewer, served on this machine alone.
+
+The only module that uses ``rerun.blueprint.table``, which Rerun calls unstable.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import rerun as rr
+import rerun.blueprint as rrb
+import rerun.blueprint.table as rrt
+
+from skyline_viz import entities
+from skyline_viz.blueprints import Contents, detection_blueprint
+from skyline_viz.gallery import Entry, Flag, Gallery
+from skyline_viz.recording import APPLICATION
+from skyline_viz.viewer import LOOPBACK, free_port
+
+_DATASET = "photos"
+_TABLE = "gallery"
+
+
+@dataclass
+class ServedGallery:
+    """A gallery that is being served."""
+
+    address: str
+    """What to open in the viewer: the cards."""
+
+    gallery: Gallery
+    """Its files."""
+
+    table: Any
+    """The table on the server."""
+
+    flags: dict[str, Flag]
+    """What is on disk about reviews and comments."""
+
+    _client: Any = field(repr=False)  # the server forgets its tables when it is dropped
+
+    def save_edits(self) -> bool:
+        """Write what people edited in the viewer since; return whether there was anything."""
+        rows = self.table.reader().to_arrow_table().to_pylist()
+        said = {row["name"]: Flag(bool(row["reviewed"]), row["comment"] or "") for row in rows}
+        merged = self.flags | {
+            name: flag for name, flag in said.items() if flag != Flag() or name in self.flags
+        }
+        if merged == self.flags:
+            return False
+        self.gallery.save_flags(merged)
+        self.flags = merged
+        return True
+
+
+@contextmanager
+def served(gallery: Gallery, entries: Sequence[Entry], truth: bool) -> Iterator[ServedGallery]:
+    """Serve a gallery for as long as the block lasts.
+
+    Args:
+        gallery: Its files.
+        entries: Its photos, in the order in which to show them.
+        truth: Whether there is a truth for any of them.
+    """
+    files = [gallery.recording(entry.name) for entry in entries]
+    flags = gallery.flags()
+    with (
+        tempfile.TemporaryDirectory(prefix="skyline-viz-") as folder,
+        rr.server.Server(host=LOOPBACK, port=free_port(), datasets={_DATASET: files}) as server,
+    ):
+        client = server.client()
+        photos = client.get_dataset(_DATASET)
+        layout = Path(folder) / "stages.rbl"
+        contents = Contents(519, 1388, truth=truth, bank=False)  # most photos are wider than high
+        detection_blueprint(contents).save(APPLICATION, layout)
+        photos.register_blueprint(layout.as_uri())
+        table = client.create_table(_TABLE, _SCHEMA)
+        table.append(**_columns(entries, flags, photos))
+        cards = Path(folder) / "cards.rbl"
+        _cards(truth).save(_TABLE, cards)
+        table.register_blueprint(cards.as_uri())
+        address = f"{server.url()}/entry/{table.id}"
+        one = ServedGallery(address, gallery, table, flags, client)
+        try:
+            yield one
+        finally:
+            one.save_edits()
+
+
+_INDEX = {rr.SORBET_IS_TABLE_INDEX: "true"}
+_SCHEMA = pa.schema(
+    [
+        pa.field("name", pa.utf8(), metadata=_INDEX),
+        pa.field("photo", pa.utf8()),
+        pa.field("a_err", pa.float32()),
+        pa.field("worst", pa.utf8()),
+        pa.field("margin", pa.float32()),
+        pa.field("wrong", pa.utf8()),
+        pa.field("reviewed", pa.bool_()),
+        pa.field("comment", pa.utf8()),
+    ]
+)
+
+
+def _columns(
+    entries: Sequence[Entry],
+    flags: dict[str, Flag],
+    photos: Any,  # noqa: ANN401
+) -> dict[str, list[Any]]:
+    said = [flags.get(entry.name, Flag()) for entry in entries]
+    return {
+        "name": [entry.name for entry in entries],
+        "photo": [photos.segment_url(entry.name) for entry in entries],
+        "a_err": [None if one.a_err is None else round(one.a_err, 2) for one in entries],
+        "worst": [_worst(entry) for entry in entries],
+        "margin": [round(entry.margin, 2) for entry in entries],
+        "wrong": [entry.wrong or "none" for entry in entries],
+        "reviewed": [flag.reviewed for flag in said],
+        "comment": [flag.comment for flag in said],
+    }
+
+
+def _worst(entry: Entry) -> str:
+    if entry.worst_error is None:
+        return f"least sure at {entry.unsure_column}"
+    return f"{entry.worst_error:.0f} px at {entry.worst_column}"
+
+
+def _cards(truth: bool) -> rrt.TableBlueprint:
+    thumbnail = rrb.Spatial2DView(
+        origin="/",
+        contents=[f"+ /{entities.PHOTO}", f"+ /{entities.PATH}/**", f"+ /{entities.TRUTH}/**"],
+        name="skyline",
+    )
+    errors = [
+        rrt.Column("a_err", name="A_err (px)"),
+        rrt.Column("worst", name="worst"),
+        rrt.Column("wrong", name="wrong"),
+    ]
+    columns = [
+        rrt.Column("photo", name="skyline", column_type=rrt.PreviewCell(thumbnail)),
+        *(errors if truth else []),
+        rrt.Column("margin", name="margin"),
+        rrt.Column("reviewed", name="reviewed", column_type=rr.components.Flag, editable=True),
+        rrt.Column("comment", name="comment", editable=True),
+    ]
+    order = rrt.SortBy("a_err", direction="descending")
+    if not truth:
+        order = rrt.SortBy("margin", direction="ascending")
+    return rrt.TableBlueprint(
+        card_layout=rrt.CardLayout(title="name", link="photo", fields=columns),
+        table_layout=rrt.TableLayout(columns=[rrt.Column("name"), *columns]),
+        default_layout="cards",
+        sort_by=order,
+    )
