@@ -24,7 +24,7 @@ lock: .venv/.installed-dev  ## Renew the locked development set.
 	    --no-emit-index-url --no-header --output-file requirements-dev.txt
 
 clean:
-	rm -rf .venv build dist skyline-demo
+	rm -rf .venv build dist skyline-demo skyline-gallery
 
 .venv/.installed-run: $(SOURCES)
 	tools/setup.sh run

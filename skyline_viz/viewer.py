@@ -36,7 +36,7 @@ _STEADY = 4  # pictures in a row that agree, 0.15 s apart: thumbnails come one b
 _ERRORS = (ConnectionError, RuntimeError, OSError, ValueError)  # what a client of a viewer raises
 
 
-class ViewerError(RuntimeError):
+class ViewerError(OSError):
     """The viewer could not be started or did not do its work; the message says why."""
 
 

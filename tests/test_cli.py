@@ -7,8 +7,6 @@ import os
 import re
 import subprocess
 import sys
-import webbrowser
-from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -89,11 +87,11 @@ def files(folder):
 def test_help_names_all_commands(say):
     status, out, _ = say("--help")
     assert status == 0
-    for command in ("detect", "train", "evaluate", "render", "demo"):
+    for command in ("detect", "inspect", "gallery", "train", "evaluate", "render", "demo"):
         assert command in out
 
 
-@pytest.mark.parametrize("command", ["detect", "train", "evaluate", "render", "demo"])
+@pytest.mark.parametrize("command", ["detect", "gallery", "train", "evaluate", "render", "demo"])
 def test_every_command_explains_itself(say, command):
     status, out, _ = say(command, "--help")
     assert status == 0
@@ -523,101 +521,63 @@ def test_render_rebuilds_the_samples_byte_for_byte(say, tmp_path):
         assert written == (tmp_path / "expected" / name).read_bytes()
 
 
-class _Links(HTMLParser):
-    def __init__(self, text):
-        super().__init__()
-        self.targets, self.pictures = [], []
-        self.feed(text)
+@pytest.fixture
+def _no_viewer(monkeypatch):
+    """Galleries are built but not drawn: `tests/e2e` does that."""
+    drawn = []
 
-    def handle_starttag(self, tag, attributes):
-        found = dict(attributes)
-        self.targets += [found[name] for name in ("src", "href") if name in found]
-        if tag == "img":
-            self.pictures.append(found["alt"])
+    def draw(out, entries, path):
+        drawn.append([entry.name for entry in entries])
+        path.write_bytes(b"picture")
+
+    monkeypatch.setattr("skyline_viz.commands.demo.show_picture", draw)
+    monkeypatch.setenv("CI", "1")
+    return drawn
 
 
-def test_the_demo_is_a_page_with_its_pictures(say, hills, tmp_path):
-    status, out, err = say("demo", hills, "--out", "page")
+def test_the_demo_is_a_gallery_the_worst_first(say, hills, tmp_path, _no_viewer):
+    status, out, err = say("demo", hills, "--out", "shown")
     assert (status, err) == (0, "")
-    assert files(tmp_path / "page") == [
-        "contact_sheet.jpg",
-        "index.html",
-        *(f"overlays/p{number}.jpg" for number in range(4)),
+    assert files(tmp_path / "shown") == [
+        "gallery.json",
+        "gallery.png",
+        *(f"recordings/p{number}.rrd" for number in range(4)),
     ]
-    assert "page/index.html" in out
-    text = (tmp_path / "page" / "index.html").read_text("utf-8")
-    links = _Links(text)
-    for target in links.targets:
-        assert target.startswith("#photo-") or (tmp_path / "page" / target).is_file()
-    assert len(links.pictures) == 4
-    assert all("the truth" in alt for alt in links.pictures)
-    assert "A<sub>err</sub>" in text
-    assert "prefers-color-scheme: dark" in text
+    assert "4 photos in shown" in out
+    assert "--out shown --serve" in out
+    errors = json.loads((tmp_path / "shown" / "gallery.json").read_text())["photos"]
+    worst_first = sorted(errors, key=lambda one: (-one["a_err"], one["margin"], one["name"]))
+    assert _no_viewer == [[one["name"] for one in worst_first]]
 
 
-def test_the_demo_without_truth_and_with_an_odd_name(say, tmp_path):
-    photo = write_scene(tmp_path / "in" / "a <b> & 'c' #1.png")
-    status, _, _ = say("demo", photo, "--out", "page")
-    assert status == 0
-    text = (tmp_path / "page" / "index.html").read_text("utf-8")
-    assert "A<sub>err</sub>" not in text
-    assert "a &lt;b&gt; &amp; &#x27;c&#x27; #1" in text
-    assert "overlays/a%20%3Cb%3E%20%26%20%27c%27%20%231.jpg" in _Links(text).targets
-
-
-def test_overlays_of_large_photos_are_reduced(say, tmp_path):
-    photo = np.full((100, 2600, 3), 200, np.uint8)
-    photo[50:] = 50
-    sv.write_photo(tmp_path / "in" / "wide.png", photo)
-    assert say("demo", tmp_path / "in", "--out", "page")[0] == 0
-    assert sv.read_photo(tmp_path / "page" / "overlays" / "wide.jpg").shape[1] == 2000
-
-
-@pytest.mark.usefixtures("_few_samples")
+@pytest.mark.usefixtures("_few_samples", "_no_viewer")
 def test_the_demo_takes_the_samples_of_this_folder(say, tmp_path):
     list(rendering.write_scenes(rendering.sample_scenes(), tmp_path / "sample_data"))
     status, out, err = say("demo")
     assert (status, err) == (0, "")
-    assert "2 photos in skyline-demo/index.html" in out
+    assert "2 photos in skyline-demo" in out
 
 
-@pytest.mark.usefixtures("_few_samples")
+@pytest.mark.usefixtures("_few_samples", "_no_viewer")
 def test_the_demo_renders_samples_where_there_are_none(say, tmp_path, monkeypatch):
     monkeypatch.setattr("skyline_viz.commands.demo.__file__", str(tmp_path / "x" / "y" / "z.py"))
-    status, out, err = say("demo", "--out", "page")
+    status, out, err = say("demo", "--out", "shown")
     assert status == 0
-    assert "rendering sample photos into page/sample_data." in err
-    assert "2 photos in page/index.html" in out
+    assert "rendering sample photos into shown/sample_data." in err
+    assert "2 photos in shown" in out
 
 
+@pytest.mark.usefixtures("_no_viewer")
 def test_the_demo_goes_on_past_a_bad_photo(say, tmp_path):
     write_scene(tmp_path / "in" / "good.png")
     (tmp_path / "in" / "bad.png").write_bytes(b"no photo")
-    status, out, err = say("demo", tmp_path / "in", "--out", "page")
+    status, out, err = say("demo", tmp_path / "in", "--out", "shown")
     assert status == 1
-    assert "1 photo in page/index.html" in out
+    assert "1 photo in shown" in out
     assert "bad.png" in err
     (tmp_path / "in" / "good.png").unlink()
     assert say("demo", tmp_path / "in", "--out", "other")[0] == 1
-    assert files(tmp_path / "other") == []
-
-
-@pytest.mark.parametrize(("display", "opens"), [(":0", True), (None, False)])
-def test_a_browser_opens_only_where_there_is_a_display(
-    say, hills, tmp_path, monkeypatch, display, opens
-):
-    opened = []
-    monkeypatch.setattr(webbrowser, "open", lambda address: bool(opened.append(address)) or True)
-    monkeypatch.setattr(sys, "platform", "linux")
-    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    monkeypatch.delenv("CI")
-    monkeypatch.setenv("DISPLAY", display) if display else monkeypatch.delenv(
-        "DISPLAY", raising=False
-    )
-    _, out, _ = say("demo", hills, "--out", "page")
-    address = (tmp_path / "page" / "index.html").as_uri()
-    assert opened == ([address] if opens else [])
-    assert (f"Open {address}" in out) == (not opens)
+    assert not list((tmp_path / "other").rglob("*.rrd"))
 
 
 # ---- in a process of its own

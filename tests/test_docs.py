@@ -16,7 +16,7 @@ from skyline_viz.config import DetectorConfig, TrainingConfig
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
-COMMANDS = ("detect", "inspect", "train", "evaluate", "render", "demo")
+COMMANDS = ("detect", "inspect", "gallery", "train", "evaluate", "render", "demo")
 
 
 def options_of(command: str) -> set[str]:

@@ -57,4 +57,13 @@ else
     say "installing skyline-viz and what it needs"
     "${pip[@]}" install -e .
 fi
+
+# The viewer draws pictures without a screen when there is a Vulkan driver; Mesa's works anywhere.
+vulkan() { ls /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json >/dev/null 2>&1; }
+if [ "$(uname)" = Linux ] && ! vulkan; then
+    apt_install mesa-vulkan-drivers libvulkan1 || {
+        say "mesa-vulkan-drivers and libvulkan1 could not be installed; pictures without a screen need them."
+        [ "$kind" = run ]  # tests look at such pictures
+    }
+fi
 touch ".venv/.installed-$kind"
