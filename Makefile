@@ -1,4 +1,4 @@
-.PHONY: demo test check bench samples lock clean
+.PHONY: demo test check bench pictures samples lock clean
 
 SOURCES = pyproject.toml requirements-dev.txt tools/setup.sh
 
@@ -15,6 +15,11 @@ check: .venv/.installed-dev  ## Lint and types only.
 
 bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the folder of the real data sets.
 	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)")
+
+pictures: .venv/.installed-run  ## Draw the pictures of the docs again.
+	.venv/bin/skyline-viz inspect sample_data/images/hazy-1.jpg --truth sample_data/masks/hazy-1.png \
+	    --compare paper --screenshot docs/inspect.jpg
+	.venv/bin/skyline-viz gallery sample_data --screenshot docs/gallery.jpg
 
 samples: .venv/.installed-run  ## Rebuild sample_data, byte for byte.
 	.venv/bin/skyline-viz render --out sample_data

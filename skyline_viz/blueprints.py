@@ -224,11 +224,14 @@ def _grid(contents: Contents, views: list[rrb.View], name: str) -> rrb.Container
 
 
 def _with_panels(tabs: list[rrb.Container], contents: Contents, active: str) -> rrb.Blueprint:
-    several = contents.photos > 1
-    timeline = entities.IMAGE if several or not contents.path_bins else entities.COLUMN
+    time = rrb.TimePanel(state="hidden")
+    if contents.photos > 1:
+        time = rrb.TimePanel(state="collapsed", timeline=entities.IMAGE, play_state="paused")
+    elif contents.path_bins:
+        time = rrb.TimePanel(state="collapsed", timeline=entities.COLUMN, play_state="paused")
     return rrb.Blueprint(
         rrb.Tabs(*tabs, active_tab=[tab.name for tab in tabs].index(active)),
-        rrb.TimePanel(state="collapsed", timeline=timeline, play_state="paused"),
+        time,
         rrb.SelectionPanel(state="hidden"),
         rrb.BlueprintPanel(state="hidden"),
         auto_views=False,

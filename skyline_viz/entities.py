@@ -31,7 +31,8 @@ DETOUR = "detour"
 """Stage 6: how much dearer the cheapest path through a pixel is: its min-marginal less the best."""
 
 EDGE_PIXELS = "edge_pixels"
-"""Exact values of the stages at the edge pixels, one row a pixel."""
+"""Exact values at the edge pixels: edge_row, edge_column, bin, strength, coherence, orientation,
+score, cost."""
 
 PATH = "skyline/path"
 """Stage 6: the detected skyline."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numba
 import numpy as np
@@ -77,8 +78,8 @@ def log_maps(
             entities.COST: detection.cost,
         }
         exact = {entity.rsplit("/", 1)[-1]: one for entity, one in values.items()}
-        everything = rr.AnyValues(**{"row": rows, "column": columns, "bin": bins, **exact})  # type: ignore[arg-type]
-        recording.log(at(entities.EDGE_PIXELS), everything)
+        table: dict[str, Any] = {"edge_row": rows, "edge_column": columns, "bin": bins, **exact}
+        recording.log(at(entities.EDGE_PIXELS), rr.AnyValues(True, **table))
     shape = detection.edges.shape
     levels = FINE if shown is None else COARSE
     for entity, at_edges in values.items():

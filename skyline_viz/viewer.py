@@ -32,6 +32,7 @@ WINDOW = (1280, 800)
 
 _START_SECONDS = 30.0
 _PICTURE_SECONDS = 60.0
+_BAR = 37  # rows of the window's own bar, which stays when its content is hidden
 _STEADY = 4  # pictures in a row that agree, 0.15 s apart: thumbnails come one by one
 _ERRORS = (ConnectionError, RuntimeError, OSError, ValueError)  # what a client of a viewer raises
 
@@ -103,7 +104,7 @@ def headless_viewer(
 
 
 def save_picture(source: str | Path, path: Path) -> None:
-    """Render what a source shows first into a PNG file.
+    """Render what a source shows first into a PNG or JPEG file.
 
     Args:
         source: Recording file, or an address.
@@ -114,12 +115,11 @@ def save_picture(source: str | Path, path: Path) -> None:
     """
     with headless_viewer([source]) as client:
         picture = settled_picture(client)
-    with replacing(path) as temporary:
-        picture.save(temporary, "PNG")
+    _save(picture, path)
 
 
 def save_pictures(source: Path, path: Path, more: str = "") -> Iterator[Path]:
-    """Render every tab of a recording into a file of its own, ``NAME-TAB.png``.
+    """Render every tab of a recording into a file of its own, ``NAME-TAB.png`` or ``.jpg``.
 
     Args:
         source: Recording file.
@@ -133,12 +133,12 @@ def save_pictures(source: Path, path: Path, more: str = "") -> Iterator[Path]:
         ViewerError: No viewer, or a picture stays blank.
     """
     with headless_viewer([source]) as client:
+        _hide_menu(client)
         for tab in tab_names(client):
             show_tab(client, tab)
-            name = f"{path.stem}{more}-{tab.lower().replace(' ', '-')}.png"
+            name = f"{path.stem}{more}-{tab.lower().replace(' ', '-')}{path.suffix}"
             picture = settled_picture(client)
-            with replacing(path.with_name(name)) as temporary:
-                picture.save(temporary, "PNG")
+            _save(picture.crop((0, _BAR, *picture.size)), path.with_name(name))
             yield path.with_name(name)
 
 
@@ -191,6 +191,19 @@ def show_tab(client: ViewerClient, tab: str) -> None:
             )
             return
     raise ViewerError(f"the recording has no tab called {tab}.")
+
+
+def _save(picture: Image.Image, path: Path) -> None:
+    """Write a picture, as PNG or JPEG."""
+    with replacing(path) as temporary:
+        picture.save(temporary, quality=88)
+
+
+def _hide_menu(client: ViewerClient) -> None:
+    """Leave the window's own bar out of pictures."""
+    _wait_for_views(client)
+    bar = {"/top_panel": {"PanelBlueprint": {"state": "Hidden"}}}
+    client.set_blueprint({**client.get_blueprint().blueprint, **bar}, of="recording")
 
 
 def _tabs(client: ViewerClient) -> list[tuple[str, str, str]]:

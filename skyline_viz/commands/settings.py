@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias, cast, get_args
 
 import tyro
 
+from skyline_viz.commands.messages import UsageError
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
@@ -28,6 +29,16 @@ BankFile: TypeAlias = Annotated[Path | None, tyro.conf.arg(metavar="FILE")]
 
 Switch: TypeAlias = tyro.conf.FlagCreatePairsOff[bool]
 """Off unless it is named."""
+
+
+def check_picture(path: Path | None) -> None:
+    """Refuse a file for a picture that would be of no known kind.
+
+    Raises:
+        UsageError: It ends in neither ``.png`` nor ``.jpg``.
+    """
+    if path is not None and path.suffix.lower() not in (".png", ".jpg"):
+        raise UsageError(f"pictures are PNG or JPEG, so {path} should end in .png or .jpg.")
 
 
 def config_of(preset: Preset) -> DetectorConfig:

@@ -1,0 +1,99 @@
+"""The real viewer, without a screen: every tab of a recording, and what it says on hovering."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import skyline_viz as sv
+from skyline_viz.blueprints import TABS
+from skyline_viz.cli import main
+from skyline_viz.tensor import tensor_map
+from skyline_viz.viewer import ViewerError, headless_viewer, settled_picture, show_tab, tab_names
+from tests.e2e.robot import PROGRAM, Robot, listening, until, viewer_port
+
+SAMPLES = Path(__file__).resolve().parents[2] / "sample_data"
+HARMLESS = ("rasterizer", "Docker", "lookup address")  # what a machine without a screen is told
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory):
+    file = tmp_path_factory.mktemp("viewer") / "hazy.rrd"
+    photo, truth = SAMPLES / "images" / "hazy-1.jpg", SAMPLES / "masks" / "hazy-1.png"
+    words = ["inspect", photo, "--truth", truth, "--compare", "paper", "--save", file]
+    assert main(list(map(str, words))) == 0
+    return file
+
+
+@pytest.fixture(scope="module")
+def viewer(recording):
+    with headless_viewer([recording]) as client:
+        yield client
+
+
+def test_the_recording_is_whole(recording):
+    subprocess.run([PROGRAM, "rrd", "verify", recording], check=True, capture_output=True)
+
+
+def test_it_has_all_tabs(viewer):
+    assert tab_names(viewer) == [*TABS, "Compare"]
+
+
+@pytest.mark.parametrize("tab", [*TABS, "Compare"])
+def test_every_tab_shows_something(viewer, tab):
+    show_tab(viewer, tab)
+    picture = np.asarray(settled_picture(viewer))
+    assert picture.shape == (800, 1280, 3)
+    views = picture[100:760]
+    left, right = views[:, :640], views[:, 640:]
+    for half in (left, right):
+        assert half.std() > 10
+        assert len(np.unique(half.reshape(-1, 3), axis=0)) > 20
+
+
+def test_no_view_complains(viewer):
+    assert [report for view in viewer.get_state().views for report in view.reports] == []
+    logs = [f"{log.level} {log.message}" for log in viewer.get_logs() if log.level != "INFO"]
+    assert [log for log in logs if not any(word in log for word in HARMLESS)] == []
+
+
+def test_an_unknown_tab_is_one_sentence(viewer):
+    with pytest.raises(ViewerError, match="no tab called Elsewhere"):
+        show_tab(viewer, "Elsewhere")
+
+
+def test_nothing_listens_beyond_this_machine(viewer):
+    assert {address for _, address, _ in listening()} == {"127.0.0.1"}
+
+
+def test_hovering_a_pixel_tells_its_value_and_unit(viewer):
+    strength = tensor_map(sv.read_photo(SAMPLES / "images" / "hazy-1.jpg")).strength
+    show_tab(viewer, "Tensor")
+    settled_picture(viewer)
+    with Robot(viewer_port()) as robot:
+
+        def tooltip():
+            robot.do("hover", pos=[320.0, 250.0])
+            return robot.says(" grey levels/px"), robot.says(", ")
+
+        said, places = until(lambda: (found := tooltip())[0] and found)
+        shown = float(re.fullmatch(r"strength (\S+) grey levels/px", said[0])[1])
+        column, row = map(int, next(filter(re.compile(r"\d+, \d+").fullmatch, places)).split(", "))
+    assert shown == pytest.approx(strength[row, column], abs=float(strength.max()) / 4000)
+
+
+def test_the_column_timeline_frames_the_filter_that_the_path_used(viewer):
+    show_tab(viewer, "Filter bank")
+    detection = sv.Detector().detect(sv.read_photo(SAMPLES / "images" / "hazy-1.jpg"))
+    for column in (100, 700):
+        row = int(detection.skyline.rows[column])
+        here = (detection.edge_rows == row) & (detection.edge_columns == column)
+        viewer.set_time("column", sequence=column, play_state="paused")
+        settled_picture(viewer)
+        with Robot(viewer_port()) as robot:
+            words = until(lambda robot=robot, column=column: robot.says(f"Column {column}"))
+            assert words
+            expected = f"Bin {detection.bins[here][0]}:" if here.any() else "no edge"
+            assert robot.says(expected)
