@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from skyline_viz.photo import PhotoError, read_photo, write_photo
     from skyline_viz.recording import log_detection, log_stages, new_recording
     from skyline_viz.skyline import Skyline, SkylineError
-    from skyline_viz.summary import Summary
     from skyline_viz.training import train
+    from skyline_viz.verdict import Verdict
 
 _HOME = {
     "Anchor": "constraints",
@@ -49,7 +49,7 @@ _HOME = {
     "Skyline": "skyline",
     "SkylineError": "skyline",
     "TrainingConfig": "config",
-    "Summary": "summary",
+    "Verdict": "verdict",
     "a_err": "metrics",
     "column_errors": "metrics",
     "is_gross_miss": "metrics",
@@ -80,8 +80,8 @@ __all__ = [
     "Skyline",
     "SkylineError",
     "StraightSpan",
-    "Summary",
     "TrainingConfig",
+    "Verdict",
     "a_err",
     "column_errors",
     "is_gross_miss",

@@ -12,7 +12,7 @@ from skyline_viz.overlay import ALTERNATIVE
 from skyline_viz.recording import Fidelity, log_detection
 from skyline_viz.report import listed_segments
 from skyline_viz.skyline import Skyline
-from skyline_viz.summary import Summary, wrong_segments
+from skyline_viz.verdict import Verdict, wrong_segments
 
 
 def log_comparison(
@@ -22,7 +22,7 @@ def log_comparison(
     truth: Skyline | None,
     name: str,
     fidelity: Fidelity = "full",
-) -> Summary:
+) -> Verdict:
     """Log a second detection of a photo, after the first one has been logged.
 
     Its line is the yellow one. Its stages have the paths of the first under `entities.OTHER`.
@@ -39,7 +39,7 @@ def log_comparison(
         What the second detection comes to.
     """
     height = len(detection.photo)
-    summary = log_detection(
+    verdict = log_detection(
         recording, other, truth, name=name, fidelity=fidelity, under=entities.OTHER
     )
     log_line(recording, entities.ALTERNATIVE, other.skyline, ALTERNATIVE, ALTERNATIVE_RADIUS)
@@ -54,4 +54,4 @@ def log_comparison(
         f"mean {np.abs(lower).mean():.2f} px\n"
     )
     recording.log(entities.COMPARISON, rr.TextDocument(text, media_type="text/markdown"))
-    return summary
+    return verdict

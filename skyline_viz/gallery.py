@@ -41,7 +41,7 @@ class GalleryError(ValueError):
 
 @dataclass(frozen=True)
 class Entry:
-    """A photo of a gallery, and what its detection came to; see `summary.Summary`."""
+    """A photo of a gallery, and what its detection came to; see `verdict.Verdict`."""
 
     name: str
     """Unique in the gallery; also the name of its recording."""
@@ -204,8 +204,8 @@ def _work(gallery: Gallery, detector: Detector, digest: str, task: _Task) -> Ent
     warm_up()
     detection = detector.detect(photo)
     with new_recording(file, task.name) as recording:
-        summary = log_detection(recording, detection, truth, name=task.name, fidelity="lean")
-    return Entry(name=task.name, photo=str(item.photo_path), made_from=made_from, **vars(summary))
+        verdict = log_detection(recording, detection, truth, name=task.name, fidelity="lean")
+    return Entry(name=task.name, photo=str(item.photo_path), made_from=made_from, **vars(verdict))
 
 
 def _digest_of(detector: Detector) -> str:

@@ -34,8 +34,8 @@ from skyline_viz.overlay import PATH, TRUTH
 from skyline_viz.report import report
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage_maps import QUANTITIES, log_detour, log_exact_map, log_maps, shown_pixels
-from skyline_viz.summary import Summary
 from skyline_viz.value_maps import Quantity
+from skyline_viz.verdict import Verdict
 
 APPLICATION = "skyline-viz"
 """Application id of all recordings: they share what is changed about the layout by hand."""
@@ -91,7 +91,7 @@ def log_detection(
     name: str = "",
     fidelity: Fidelity = "full",
     under: str = "",
-) -> Summary:
+) -> Verdict:
     """Log all stages of a detection.
 
     Args:
@@ -117,7 +117,7 @@ def log_detection(
     recording.log(at(entities.EDGES), _encoded_edges(detection.edges))
     count = log_maps(recording, at, detection, shown)
     unsure = detection.uncertainty()  # while the maps above are being compressed
-    summary = Summary.of(detection.skyline, unsure.margins, height, truth)
+    verdict = Verdict.of(detection.skyline, unsure.margins, height, truth)
     log_detour(recording, at, detection, unsure.detour, shown)
     log_line(recording, at(entities.PATH), detection.skyline, PATH)
     if truth:
@@ -126,12 +126,12 @@ def log_detection(
         recording.log(at(entities.TRUTH), rr.Clear(recursive=True))  # an earlier photo's
     log_columns(recording, at, detection, unsure.margins, truth)
     for metric in ("a_err", "worst_error", "margin"):
-        value = getattr(summary, metric)
+        value = getattr(verdict, metric)
         if value is not None:
             recording.log(at(f"{entities.METRICS}/{metric}"), rr.Scalars(value))
     for stage, seconds in detection.seconds.items():
         recording.log(at(f"{entities.TIMINGS}/{stage}"), rr.Scalars(1000 * seconds))
-    text = report(name, detection, summary, count)
+    text = report(name, detection, verdict, count)
     recording.log(at(entities.REPORT), rr.TextDocument(text, media_type="text/markdown"))
     if fidelity == "full":
         log_filter_bank(recording, detection.bank, under=under)
@@ -139,7 +139,7 @@ def log_detection(
             _lay_out(
                 recording, detection_blueprint(Contents(height, photo.shape[1], truth is not None))
             )
-    return summary
+    return verdict
 
 
 def log_stages(

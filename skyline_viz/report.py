@@ -7,18 +7,18 @@ from dataclasses import fields
 
 from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detection
-from skyline_viz.summary import Summary
+from skyline_viz.verdict import Verdict
 
 _MOST_SEGMENTS = 6
 
 
-def report(name: str, detection: Detection, summary: Summary, shown: int) -> str:
+def report(name: str, detection: Detection, verdict: Verdict, shown: int) -> str:
     """Say how good a detection is, how sure, how long it took, and how it was made.
 
     Args:
         name: Name of the photo, or what to call it.
         detection: The detection.
-        summary: What it comes to.
+        verdict: What it comes to.
         shown: Number of edge pixels that the maps show.
     """
     height, width = detection.edges.shape
@@ -28,9 +28,9 @@ def report(name: str, detection: Detection, summary: Summary, shown: int) -> str
         f"## {name or 'photo'}",
         f"{width} x {height} px",
         "",
-        *_verdict(summary),
+        *_verdict(verdict),
         "",
-        f"**Margin** {summary.margin:.3g}, least sure at column {summary.unsure_column}  ",
+        f"**Margin** {verdict.margin:.3g}, least sure at column {verdict.unsure_column}  ",
         f"**Edges** {edges:,} pixels ({edges / (width * height):.0%}), "
         f"Canny {low:.0f} and {high:.0f}  ",
         *([f"Maps show the {shown:,} cheapest of their columns  "] if shown < edges else []),
@@ -66,14 +66,14 @@ def settings_changed(config: DetectorConfig) -> list[str]:
     ]
 
 
-def _verdict(summary: Summary) -> list[str]:
-    if summary.a_err is None or summary.segments is None:
+def _verdict(verdict: Verdict) -> list[str]:
+    if verdict.a_err is None or verdict.segments is None:
         return ["*There is no truth to compare with.*"]
-    gross = "  \n**A gross miss**: over 5 % of the height." if summary.gross_miss else ""
-    wrong = listed_segments(summary.segments)
+    gross = "  \n**A gross miss**: over 5 % of the height." if verdict.gross_miss else ""
+    wrong = listed_segments(verdict.segments)
     return [
-        f"**A_err {summary.a_err:.2f} px**{gross}  ",
-        f"**Worst** {summary.worst_error:.1f} px at column {summary.worst_column}  ",
+        f"**A_err {verdict.a_err:.2f} px**{gross}  ",
+        f"**Worst** {verdict.worst_error:.1f} px at column {verdict.worst_column}  ",
         f"**Wrong columns** {wrong}" if wrong else "No column is wrong by over 1 % of the height.",
     ]
 

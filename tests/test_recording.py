@@ -31,9 +31,9 @@ def scene(height=HEIGHT, width=WIDTH, noise=6, seed=0):
 def record(path, detection, truth=None, **options):
     with sv.new_recording(path, "scene") as recording:
         recording.set_time(entities.IMAGE, sequence=0)
-        summary = sv.log_detection(recording, detection, truth, name="scene", **options)
+        verdict = sv.log_detection(recording, detection, truth, name="scene", **options)
     verify(path)
-    return Read(path), summary
+    return Read(path), verdict
 
 
 @pytest.fixture(scope="module")
@@ -181,19 +181,19 @@ def test_what_runs_along_the_columns(full, found):
 
 def test_report_and_metrics(found, tmp_path):
     detection, truth = found
-    read, summary = record(tmp_path / "a.rrd", detection, truth)
+    read, verdict = record(tmp_path / "a.rrd", detection, truth)
     report = read.last(entities.REPORT, "text").as_py()[0]
     assert f"**A_err {sv.a_err(detection.skyline, truth):.2f} px**" in report
     assert f"{len(detection.scores):,} pixels" in report
-    assert read.array("metrics/a_err", "scalars") == pytest.approx([summary.a_err])
-    assert read.array("metrics/margin", "scalars") == pytest.approx([summary.margin])
+    assert read.array("metrics/a_err", "scalars") == pytest.approx([verdict.a_err])
+    assert read.array("metrics/margin", "scalars") == pytest.approx([verdict.margin])
     for stage, seconds in detection.seconds.items():
         assert read.array(f"timings/{stage}", "scalars") == pytest.approx([1000 * seconds])
 
 
 def test_without_a_truth_there_is_none(found, tmp_path):
-    read, summary = record(tmp_path / "a.rrd", found[0], fidelity="lean")
-    assert summary.a_err is None
+    read, verdict = record(tmp_path / "a.rrd", found[0], fidelity="lean")
+    assert verdict.a_err is None
     assert not read.all(entities.TRUTH, "strips")
     assert not read.all(entities.ERRORS, "values")
     assert "margin" in read.labels(entities.STRIP)[1]
@@ -261,9 +261,9 @@ def test_the_filter_that_the_path_used(found, tmp_path):
 )
 def test_photos_without_an_edge(tmp_path, photo, fidelity):
     detection = sv.Detector().detect(photo)
-    read, summary = record(tmp_path / "a.rrd", detection, fidelity=fidelity)
+    read, verdict = record(tmp_path / "a.rrd", detection, fidelity=fidelity)
     assert not read.classes(entities.SCORE).any()
-    assert summary.margin >= 0
+    assert verdict.margin >= 0
 
 
 def test_a_truth_of_another_width_leaves_no_file(found, tmp_path):

@@ -184,15 +184,15 @@ class Inspect:
         alone = together == 1
         if alone:  # what is logged below is there in every column
             recording.set_time("column", sequence=0)
-        summary = log_detection(recording, found, truth, name=one.name, fidelity=fidelity)
+        verdict = log_detection(recording, found, truth, name=one.name, fidelity=fidelity)
         if other:
             second = other.detect(photo)
             log_comparison(recording, found, second, truth, str(self.compare), fidelity)
         if alone:
             recording.disable_timeline("column")
             log_path_bins(recording, found)
-        error = "" if summary.a_err is None else f"  A_err {summary.a_err:.2f} px"
-        print(f"{one.name}{error}  margin {summary.margin:.3g}")
+        error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
+        print(f"{one.name}{error}  margin {verdict.margin:.3g}")
         height, width = found.edges.shape
         return Contents(
             height,

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.skyline import Skyline, SkylineError
-from skyline_viz.summary import SEGMENT_GAP, Summary, wrong_segments
+from skyline_viz.verdict import SEGMENT_GAP, Verdict, wrong_segments
 
 
 def test_a_detection_with_a_truth():
@@ -15,30 +15,30 @@ def test_a_detection_with_a_truth():
     rows[20:30] = 70
     rows[120] = 90
     margins = np.linspace(1, 3, 200)
-    summary = Summary.of(Skyline(rows), margins, 100, truth)
-    assert summary.a_err == pytest.approx((10 * 20 + 40) / 200)
-    assert (summary.worst_column, summary.worst_error) == (120, 40)
-    assert summary.segments == ((20, 29), (120, 120))
-    assert summary.gross_miss is False
-    assert summary.unsure_column == 0
-    assert 1 <= summary.margin < 1.2
+    verdict = Verdict.of(Skyline(rows), margins, 100, truth)
+    assert verdict.a_err == pytest.approx((10 * 20 + 40) / 200)
+    assert (verdict.worst_column, verdict.worst_error) == (120, 40)
+    assert verdict.segments == ((20, 29), (120, 120))
+    assert verdict.gross_miss is False
+    assert verdict.unsure_column == 0
+    assert 1 <= verdict.margin < 1.2
 
 
 @pytest.mark.parametrize("truth", [None, Skyline(np.zeros(4), np.zeros(4, bool))])
 def test_without_a_visible_truth_there_are_no_errors(truth):
-    summary = Summary.of(Skyline(np.zeros(4)), np.array([3.0, 1, np.inf, 2]), 10, truth)
-    assert (summary.a_err, summary.worst_error, summary.segments) == (None, None, None)
-    assert (summary.margin, summary.unsure_column) == (1, 1)
+    verdict = Verdict.of(Skyline(np.zeros(4)), np.array([3.0, 1, np.inf, 2]), 10, truth)
+    assert (verdict.a_err, verdict.worst_error, verdict.segments) == (None, None, None)
+    assert (verdict.margin, verdict.unsure_column) == (1, 1)
 
 
 def test_a_gross_miss():
-    summary = Summary.of(Skyline(np.zeros(4)), np.ones(4), 10, Skyline(np.ones(4)))
-    assert summary.gross_miss is True
+    verdict = Verdict.of(Skyline(np.zeros(4)), np.ones(4), 10, Skyline(np.ones(4)))
+    assert verdict.gross_miss is True
 
 
 def test_a_truth_of_another_width_is_refused():
     with pytest.raises(SkylineError, match="columns"):
-        Summary.of(Skyline(np.zeros(4)), np.ones(4), 10, Skyline(np.zeros(5)))
+        Verdict.of(Skyline(np.zeros(4)), np.ones(4), 10, Skyline(np.zeros(5)))
 
 
 @given(st.lists(st.sampled_from([0.0, 9.0, np.nan]), min_size=1, max_size=60))

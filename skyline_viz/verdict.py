@@ -21,7 +21,7 @@ UNSURE_PERCENTILE = 5.0
 
 
 @dataclass(frozen=True)
-class Summary:
+class Verdict:
     """What a detection comes to. Errors need a truth, and are None without one."""
 
     a_err: float | None
@@ -46,7 +46,7 @@ class Summary:
     """Column with the smallest margin."""
 
     @classmethod
-    def of(cls, skyline: Skyline, margins: F64, height: int, truth: Skyline | None) -> Summary:
+    def of(cls, skyline: Skyline, margins: F64, height: int, truth: Skyline | None) -> Verdict:
         """Sum up a detected skyline.
 
         Args:
