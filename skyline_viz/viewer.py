@@ -69,7 +69,7 @@ def serve(sources: Sequence[str | Path]) -> tuple[subprocess.Popen[bytes], str]:
     page, data = free_port(), free_port()
     arguments = ["--serve-web", "--web-viewer-port", str(page), "--port", str(data)]
     process = _start([*arguments, *map(str, sources)], stdout=subprocess.DEVNULL)
-    address = f"http://{LOOPBACK}:{page}?url=rerun%2Bhttp%3A%2F%2F{LOOPBACK}%3A{data}%2Fproxy"
+    address = f"http://{LOOPBACK}:{page}/?url=rerun%2Bhttp%3A%2F%2F{LOOPBACK}%3A{data}%2Fproxy"
     deadline = monotonic() + _START_SECONDS
     while not _listens(page):
         if process.poll() is not None or monotonic() > deadline:

@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+import urllib.request
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,14 @@ import skyline_viz as sv
 from skyline_viz.blueprints import TABS
 from skyline_viz.cli import main
 from skyline_viz.tensor import tensor_map
-from skyline_viz.viewer import ViewerError, headless_viewer, settled_picture, show_tab, tab_names
+from skyline_viz.viewer import (
+    ViewerError,
+    headless_viewer,
+    serve,
+    settled_picture,
+    show_tab,
+    tab_names,
+)
 from tests.e2e.robot import PROGRAM, Robot, listening, until, viewer_port
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_data"
@@ -66,6 +74,20 @@ def test_an_unknown_tab_is_one_sentence(viewer):
 
 def test_nothing_listens_beyond_this_machine(viewer):
     assert {address for _, address, _ in listening()} == {"127.0.0.1"}
+
+
+def test_serving_to_a_browser_on_this_machine(recording):
+    process, address = serve([recording])
+    try:
+        assert address.startswith("http://127.0.0.1:")
+        with urllib.request.urlopen(address, timeout=20) as page:
+            assert page.status == 200
+            assert b"rerun" in page.read().lower()
+        assert {one for _, one, _ in listening()} == {"127.0.0.1"}
+        assert process.poll() is None
+    finally:
+        process.terminate()
+        process.wait(20)
 
 
 def test_hovering_a_pixel_tells_its_value_and_unit(viewer):
