@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 import rerun as rr
 import rerun.blueprint as rrb
+import rerun_bindings
 
 from skyline_viz import entities
 from skyline_viz.arrays import U8, Bool, check_photo
@@ -66,6 +67,8 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
         name: What the viewer calls the recording.
     """
     interrupted: KeyboardInterrupt | None = None
+    # streams that nobody holds any more keep what was logged, 2 MB a photo, until told to let go
+    rerun_bindings.flush_and_cleanup_orphaned_recordings()
     with replacing(path) as temporary:
         batches = rr.ChunkBatcherConfig.DEFAULT()
         batches.flush_num_bytes = _BATCH  # compress maps while the next ones are made

@@ -65,6 +65,16 @@ def test_nothing_is_done_twice(photos, tmp_path):
     assert again == first
 
 
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is read from /proc")
+def test_memory_does_not_grow_with_the_number_of_photos(tmp_path):
+    photo = np.random.default_rng(0).integers(0, 255, (300, 400, 3)).astype(np.uint8)
+    sv.write_photo(tmp_path / "a.png", photo)
+    shots = [Shot(f"p{number}", DatasetItem("a", tmp_path / "a.png")) for number in range(120)]
+    outcomes = Gallery(tmp_path / "g").build(shots, sv.Detector(), workers=1)
+    pages = [int(Path("/proc/self/statm").read_text().split()[1]) for _ in outcomes]
+    assert (pages[-1] - pages[40]) * 4096 < 40e6  # each recording holds 2 MB before it is written
+
+
 def change_photo(photos):
     sv.write_photo(photos / "images" / "p1.png", scene(30))
     return sv.Detector()
