@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from skyline_viz.detector import Detection, Detector
     from skyline_viz.filter_bank import FilterBank, FilterBankError
     from skyline_viz.metrics import a_err, column_errors, is_gross_miss, segmentation_accuracy
+    from skyline_viz.notebook import show_detection
     from skyline_viz.path import margins, path_tables, shortest_path
     from skyline_viz.photo import PhotoError, read_photo, write_photo
     from skyline_viz.recording import log_detection, log_stages, new_recording
@@ -59,6 +60,7 @@ _HOME = {
     "open_dataset": "datasets",
     "read_photo": "photo",
     "segmentation_accuracy": "metrics",
+    "show_detection": "notebook",
     "train": "training",
     "write_photo": "photo",
 }
@@ -94,6 +96,7 @@ __all__ = [
     "read_photo",
     "segmentation_accuracy",
     "shortest_path",
+    "show_detection",
     "train",
     "write_photo",
 ]
