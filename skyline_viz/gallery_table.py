@@ -45,10 +45,14 @@ class ServedGallery:
 
     _client: Any = field(repr=False)  # the server forgets its tables when it is dropped
 
+    reviewed: int = 0
+    """How many of its photos are reviewed, as far as the viewer has said."""
+
     def save_edits(self) -> bool:
         """Write what people edited in the viewer since; return whether there was anything."""
         rows = self.table.reader().to_arrow_table().to_pylist()
         said = {row["name"]: Flag(bool(row["reviewed"]), row["comment"] or "") for row in rows}
+        self.reviewed = sum(flag.reviewed for flag in said.values())
         merged = self.flags | {
             name: flag for name, flag in said.items() if flag != Flag() or name in self.flags
         }
@@ -87,6 +91,7 @@ def served(gallery: Gallery, entries: Sequence[Entry], truth: bool) -> Iterator[
         table.register_blueprint(cards.as_uri())
         address = f"{server.url()}/entry/{table.id}"
         one = ServedGallery(address, gallery, table, flags, client)
+        one.save_edits()  # nothing yet, but counts what is reviewed
         try:
             yield one
         finally:

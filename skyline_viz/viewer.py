@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 import rerun as rr
+import rerun_cli
 from PIL import Image
 from rerun.experimental import ViewerClient
 
@@ -26,6 +27,9 @@ from skyline_viz.files import replacing
 
 LOOPBACK = "127.0.0.1"
 """The only address on which anything listens."""
+
+PROGRAM = Path(str(rerun_cli.__file__)).with_name("rerun.exe" if os.name == "nt" else "rerun")
+"""The viewer's program."""
 
 WINDOW = (1280, 800)
 """Width and height of pictures, in pixels."""
@@ -50,13 +54,14 @@ def has_display() -> bool:
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
-def open_viewer(sources: Sequence[str | Path]) -> subprocess.Popen[bytes]:
+def open_viewer(sources: Sequence[str | Path], port: int | None = None) -> subprocess.Popen[bytes]:
     """Open the viewer's window on recordings, and return at once.
 
     Args:
         sources: Recording files, or addresses of a server's recordings.
+        port: Where it listens; any unless given.
     """
-    arguments = ["--port", "auto", *map(str, sources)]
+    arguments = ["--port", str(port or "auto"), *map(str, sources)]
     return _start(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
@@ -250,16 +255,12 @@ def free_port() -> int:
 
 
 def _start(arguments: Sequence[str], **streams: Any) -> subprocess.Popen[bytes]:  # noqa: ANN401
-    import rerun_cli  # noqa: PLC0415  # the package around the viewer's program
-
-    name = "rerun.exe" if sys.platform == "win32" else "rerun"
-    program = Path(str(rerun_cli.__file__)).with_name(name)
     common = ["--bind", LOOPBACK, "--hide-welcome-screen"]
     environment = {"RUST_LOG": "warn", **os.environ}
     try:
-        return subprocess.Popen([program, *common, *arguments], env=environment, **streams)  # noqa: S603
+        return subprocess.Popen([PROGRAM, *common, *arguments], env=environment, **streams)  # noqa: S603
     except OSError as error:
-        raise ViewerError(f"the viewer {program} cannot be started: {error.strerror}.") from error
+        raise ViewerError(f"the viewer {PROGRAM} cannot be started: {error.strerror}.") from error
 
 
 def _connected(process: subprocess.Popen[bytes], port: int, log: Any) -> ViewerClient:  # noqa: ANN401

@@ -2,14 +2,12 @@
 
 import re
 import subprocess
-from pathlib import Path
 
 import cv2
 import numpy as np
-import rerun_cli
 from rerun.chunk import RrdReader
 
-PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
+from skyline_viz.viewer import PROGRAM
 
 
 def verify(path):

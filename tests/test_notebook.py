@@ -11,7 +11,8 @@ from nbclient import NotebookClient
 
 import skyline_viz as sv
 from skyline_viz import entities
-from tests.recordings import PROGRAM, Read
+from skyline_viz.viewer import PROGRAM
+from tests.recordings import Read
 
 ROOT = Path(__file__).resolve().parent.parent
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import threading
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -111,13 +111,17 @@ def build(
 
 def show(out: Path, entries: Sequence[Entry], *, window: bool) -> None:
     """Serve a gallery, in a window where there is a display, until it is closed or Ctrl-C."""
-    from skyline_viz.viewer import has_display, open_viewer  # noqa: PLC0415
+    from skyline_viz.viewer import free_port, has_display, open_viewer  # noqa: PLC0415
+    from skyline_viz.viewer_hand import ended_edits  # noqa: PLC0415
 
-    with _served(out, entries) as gallery, _stopped_politely() as stop:
+    with _served(out, entries) as gallery, _stopped_politely() as stop, ExitStack() as around:
         viewer = None
         if window and has_display():
-            viewer = open_viewer([gallery.address])
-            print("Escape or Enter ends an edit; then it is on disk.", flush=True)
+            port = free_port()
+            viewer = open_viewer([gallery.address], port)
+            around.callback(viewer.terminate)
+            around.enter_context(ended_edits(port, lambda: gallery.reviewed))
+            print("Enter ends a comment. A moment later all is on disk.", flush=True)
         else:
             if window:
                 say("there is no display to open the viewer on; --screenshot FILE.png needs none.")
@@ -125,8 +129,6 @@ def show(out: Path, entries: Sequence[Entry], *, window: bool) -> None:
             print("Ctrl-C ends.", flush=True)
         while not stop.wait(LOOK_EVERY) and (viewer is None or viewer.poll() is None):
             gallery.save_edits()
-        if viewer is not None:
-            viewer.terminate()
 
 
 def show_picture(out: Path, entries: Sequence[Entry], path: Path) -> None:

@@ -18,8 +18,9 @@ from skyline_viz.commands.settings import make_detector
 from skyline_viz.config import DetectorConfig
 from skyline_viz.gallery import Flag, Gallery
 from skyline_viz.gallery_table import served
-from skyline_viz.viewer import headless_viewer, settled_picture
-from tests.e2e.robot import PROGRAM, Robot, listening, until, viewer_port
+from skyline_viz.viewer import PROGRAM, headless_viewer, settled_picture
+from skyline_viz.viewer_hand import ended_edits
+from tests.e2e.robot import Robot, listening, until, viewer_port
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_data"
 NAMES = ["hazy-1", "spires-5", "rover-2"]  # the worst first
@@ -56,13 +57,17 @@ def test_reviewing_commenting_and_looking_inside(photos, tmp_path):
             viewer.take_screenshot()  # a viewer without a screen works only when it draws
             return gallery.save_edits()
 
-        with Robot(viewer_port()) as robot:
+        port = viewer_port()
+        with Robot(port) as robot:
             until(lambda: len(robot.says("hazy-1")) > 0)
             assert [one for one in NAMES if robot.says(one)] == NAMES
-            flag = robot.widgets(role="CheckBox", label_contains="Flag")[-1]
-            robot.do("click", id=flag["id"])
-            robot.do("press_key", key="Escape")  # the viewer sends edits when they are ended
-            until(saved)
+            for change in (1, -1, 1):  # set it, take it back, set it
+                with ended_edits(port, lambda: gallery.reviewed):
+                    flag = robot.widgets(role="CheckBox", label_contains="Flag")[-1]
+                    box = json.loads(robot.do("get_widget", id=flag["id"]))["node"]["bounds"]
+                    robot.do("click", pos=[box["x"] + box["w"] / 2, box["y"] + box["h"] / 2])
+                    until(saved)
+                assert gallery.reviewed == max(change, 0)
             (name,) = Gallery(tmp_path).flags()
             assert Gallery(tmp_path).flags() == {name: Flag(reviewed=True)}
             field = robot.widgets(role="TextInput", label_contains="comment")[0]

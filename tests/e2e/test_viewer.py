@@ -13,6 +13,7 @@ from skyline_viz.blueprints import TABS
 from skyline_viz.cli import main
 from skyline_viz.tensor import tensor_map
 from skyline_viz.viewer import (
+    PROGRAM,
     ViewerError,
     headless_viewer,
     serve,
@@ -20,7 +21,7 @@ from skyline_viz.viewer import (
     show_tab,
     tab_names,
 )
-from tests.e2e.robot import PROGRAM, Robot, listening, until, viewer_port
+from tests.e2e.robot import Robot, listening, until, viewer_port
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_data"
 HARMLESS = ("rasterizer", "Docker", "lookup address")  # what a machine without a screen is told
