@@ -20,10 +20,10 @@ def listening(process=None):
     ]
 
 
-def viewer_port():
-    """Port of the one viewer that this process has started."""
+def viewer_port(besides=()):
+    """Port of the one viewer that this process has started, besides those on other ports."""
     here = psutil.Process().pid
-    (port,) = {port for pid, _, port in listening() if pid != here}
+    (port,) = {port for pid, _, port in listening() if pid != here} - set(besides)
     return port
 
 

@@ -123,9 +123,10 @@ def test_the_column_timeline_frames_the_filter_that_the_path_used(viewer):
 
 
 def test_a_viewer_that_runs_is_sent_the_recording():
+    others = {port for _, _, port in listening()}
     with headless_viewer() as client:
         photo = SAMPLES / "images" / "rover-2.jpg"
-        address = f"rerun+http://127.0.0.1:{viewer_port()}/proxy"
+        address = f"rerun+http://127.0.0.1:{viewer_port(others)}/proxy"
         assert main(["inspect", str(photo), "--connect", address]) == 0
         assert tab_names(client) == list(TABS)
         assert np.asarray(settled_picture(client)).std() > 20
