@@ -19,10 +19,12 @@ from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank
 CELL = 44
 """Side of a cell, in pixels."""
 
-LEFT, TOP = 176, 44
+LEFT, TOP = 280, 62
 """Space for the labels of rows and columns, in pixels."""
 
 _GAP = 3
+_CORNER = 13  # legs of the triangle that marks a starved bin
+_LETTERS = 22  # size of letters, which the viewer shows at about half of it
 _BACKGROUND, _TEXT, _STARVED = (24, 24, 24), (225, 225, 225), (230, 150, 0)
 
 
@@ -44,7 +46,7 @@ def cell_box(index: int, bins: Bins) -> tuple[int, int, int, int]:
     """Left, top, right and bottom of a bin's cell, in pixels of the pictures.
 
     >>> cell_box(0, Bins())
-    (176, 44, 217, 85)
+    (280, 62, 321, 103)
     """
     row, column = divmod(index, bins.orientations)
     left, top = LEFT + column * CELL, TOP + row * CELL
@@ -69,7 +71,7 @@ def bin_label(index: int, bins: Bins) -> str:
 
 
 def draw_bank(bank: FilterBank) -> BankPictures:
-    """Draw the filters and the samples of a bank. Starved bins have an orange frame."""
+    """Draw the filters and the samples of a bank. Starved bins have an orange corner."""
     cells = np.zeros(_size(bank.bins), np.int32)
     for index in range(bank.bins.count):
         left, top, right, bottom = cell_box(index, bank.bins)
@@ -88,13 +90,13 @@ def _draw_filters(bank: FilterBank) -> U8:
         large = Image.fromarray(picture).resize((side, side), Image.Resampling.NEAREST)
         sheet.paste(large, (left, top))
         if bank.starved[index]:
-            pen.rectangle((left - 2, top - 2, right + 1, bottom + 1), outline=_STARVED, width=2)
+            _mark_starved(pen, left, top)
     return np.array(sheet)
 
 
 def _draw_samples(bank: FilterBank) -> U8:
     sheet, pen = _sheet(bank.bins)
-    font = ImageFont.load_default(size=13)
+    font = ImageFont.load_default(size=_LETTERS - 4)
     heat = np.log10(bank.samples + 1.0)
     heat = heat / max(float(heat.max()), 1.0)
     colours = (colormaps["viridis"](heat)[:, :3] * 255).astype(int)
@@ -102,24 +104,30 @@ def _draw_samples(bank: FilterBank) -> U8:
         left, top, right, bottom = cell_box(index, bank.bins)
         pen.rectangle((left, top, right - 1, bottom - 1), fill=tuple(colours[index]))
         if bank.starved[index]:
-            pen.rectangle((left - 2, top - 2, right + 1, bottom + 1), outline=_STARVED, width=2)
+            _mark_starved(pen, left, top)
         ink = (0, 0, 0) if heat[index] > 0.6 else (255, 255, 255)
         centre = ((left + right) / 2, (top + bottom) / 2)
         pen.text(centre, _short(count), fill=ink, font=font, anchor="mm")
     return np.array(sheet)
 
 
+def _mark_starved(pen: ImageDraw.ImageDraw, left: int, top: int) -> None:
+    """An orange triangle in the upper left corner of a cell."""
+    pen.polygon([(left, top), (left + _CORNER, top), (left, top + _CORNER)], fill=_STARVED)
+
+
 def _sheet(bins: Bins) -> tuple[Image.Image, ImageDraw.ImageDraw]:
     height, width = _size(bins)
     sheet = Image.new("RGB", (width, height), _BACKGROUND)
     pen = ImageDraw.Draw(sheet)
-    font = ImageFont.load_default(size=14)
-    note = f"orange: fewer than {STARVED_SAMPLES} samples"
-    pen.text((8, 4), note, fill=_STARVED, font=ImageFont.load_default(size=12))
+    font = ImageFont.load_default(size=_LETTERS)
+    note = f"orange corner: fewer than {STARVED_SAMPLES} samples"
+    pen.text((8, 4), note, fill=_STARVED, font=font)
     for orientation in range(bins.orientations):
         left, top, right, _ = cell_box(orientation, bins)
         text = f"{orientation * 180 / bins.orientations:.0f}°"
-        pen.text(((left + right) / 2, top - 12), text, fill=_TEXT, font=font, anchor="mm")
+        small = ImageFont.load_default(size=_LETTERS - 4)
+        pen.text(((left + right) / 2, top - 16), text, fill=_TEXT, font=small, anchor="mm")
     for row in range(bins.coherences * bins.strengths):
         left, top, _, bottom = cell_box(row * bins.orientations, bins)
         coherence, strength = divmod(row, bins.strengths)
@@ -127,9 +135,9 @@ def _sheet(bins: Bins) -> tuple[Image.Image, ImageDraw.ImageDraw]:
         pen.text(place, _strength(strength, bins), fill=_TEXT, font=font, anchor="rm")
         if strength == 0:
             pen.line((8, top - 2, width, top - 2), fill=(90, 90, 90))
-            pen.text((8, top + 4), "coherence", fill=_TEXT, font=font)
-            pen.text((8, top + 24), _coherence(coherence, bins), fill=_TEXT, font=font)
-    pen.text((LEFT - 8, TOP - 12), "strength", fill=_TEXT, font=font, anchor="rm")
+            pen.text((8, top + 8), "coherence", fill=_TEXT, font=font)
+            pen.text((8, top + 36), _coherence(coherence, bins), fill=_TEXT, font=font)
+    pen.text((LEFT - 8, TOP - 16), "strength", fill=_TEXT, font=font, anchor="rm")
     return sheet, pen
 
 

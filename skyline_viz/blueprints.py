@@ -152,7 +152,7 @@ def _bank_tab(contents: Contents) -> rrb.Container:
     )
     about = rrb.TextDocumentView(origin=entities.BANK_USED, name="The filter it used")
     foot = rrb.Horizontal(photo, about, column_shares=[3, 2])
-    return rrb.Vertical(pictures, foot, row_shares=[7, 3], name="Filter bank")
+    return rrb.Vertical(pictures, foot, row_shares=[3, 1], name="Filter bank")
 
 
 def _columns_tab(contents: Contents) -> rrb.Container:

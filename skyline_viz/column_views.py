@@ -32,7 +32,8 @@ STRIP_ERRORS = (1.0, 2.0, 4.0, 8.0, 16.0)
 STRIP_MARGINS = (4.0, 2.0, 1.0, 0.5, 0.25)
 """Margins below which the strip gets brighter, where there is no truth."""
 
-_ERROR, _MARGIN, _COST = (0xE6, 0x9F, 0x00), (0x56, 0xB4, 0xE9), (0xB0, 0xB0, 0xB0)
+_ERROR, _MARGIN, _COST = (0xA0, 0x6E, 0x00), (0x3C, 0x7C, 0xA0), (0x7C, 0x7C, 0x7C)
+_LINK = (0xB0, 0xB0, 0xB0)
 
 
 def log_line(
@@ -91,7 +92,6 @@ def log_columns(
     curves = {
         entities.MARGINS: (np.minimum(margins, finite.max(initial=0.0)), _MARGIN),
         entities.NODE_COSTS: (node, _COST),
-        entities.LINK_COSTS: (link, _COST),
     }
     strip = 1 + np.digitize(-margins, -np.array(STRIP_MARGINS), right=True)
     words = [
@@ -108,8 +108,19 @@ def log_columns(
     else:
         recording.log(at(entities.ERRORS), rr.Clear(recursive=False))  # an earlier photo's
     for entity, (values, colour) in curves.items():
-        recording.log(at(entity), rr.BarChart(values.astype(np.float32), color=colour))
+        recording.log(at(entity), curve(values, colour))
+    recording.log(at(entities.LINK_COSTS), rr.BarChart(link.astype(np.float32), color=_LINK))
     _log_strip(recording, at(entities.STRIP), strip, words, len(detection.photo))
+
+
+def curve(values: npt.NDArray[np.floating], colour: Colour) -> rr.BarChart:
+    """A value of each column ``(W,)`` as an area.
+
+    Bars are two columns wide: the viewer lays translucent bars over each other, and narrower ones
+    would leave dark stripes. So the colour should be a dark one.
+    """
+    wide = np.full(len(values), 2.0, np.float32)
+    return rr.BarChart(values.astype(np.float32), color=colour, widths=wide)
 
 
 def path_costs(detection: Detection) -> tuple[F64, F64]:

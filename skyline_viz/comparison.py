@@ -6,13 +6,15 @@ import numpy as np
 import rerun as rr
 
 from skyline_viz import entities
-from skyline_viz.column_views import ALTERNATIVE_RADIUS, log_line
+from skyline_viz.column_views import ALTERNATIVE_RADIUS, curve, log_line
 from skyline_viz.detector import Detection
 from skyline_viz.overlay import ALTERNATIVE
 from skyline_viz.recording import Fidelity, log_detection
 from skyline_viz.report import listed_segments
 from skyline_viz.skyline import Skyline
 from skyline_viz.verdict import Verdict, wrong_segments
+
+_DIFFERENCE = (0xAA, 0x8E, 0x0A)  # the yellow of the second line, as dark as areas need it
 
 
 def log_comparison(
@@ -44,7 +46,7 @@ def log_comparison(
     )
     log_line(recording, entities.ALTERNATIVE, other.skyline, ALTERNATIVE, ALTERNATIVE_RADIUS)
     lower = other.skyline.rows - detection.skyline.rows
-    recording.log(entities.DIFFERENCES, rr.BarChart(lower, color=ALTERNATIVE))
+    recording.log(entities.DIFFERENCES, curve(lower, _DIFFERENCE))
     apart = wrong_segments(np.abs(lower).astype(np.float64), height)
     words = listed_segments(apart) or "none"
     text = (
