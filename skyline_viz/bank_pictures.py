@@ -84,7 +84,7 @@ def _draw_filters(bank: FilterBank) -> U8:
     colours = colormaps["RdBu_r"]
     side = CELL - _GAP
     for index, taps in enumerate(bank.filters):
-        left, top, right, bottom = cell_box(index, bank.bins)
+        left, top, _, _ = cell_box(index, bank.bins)
         top_tap = float(np.abs(taps).max()) or 1.0  # each filter shows its own shape
         picture = (colours(0.5 + 0.5 * taps / top_tap)[..., :3] * 255).astype(np.uint8)
         large = Image.fromarray(picture).resize((side, side), Image.Resampling.NEAREST)

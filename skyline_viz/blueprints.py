@@ -181,7 +181,8 @@ def _compare_tab(contents: Contents) -> rrb.Container:
     other = rrb.TextDocumentView(
         origin=below(entities.OTHER, entities.REPORT), name=f"Report of {contents.compared}"
     )
-    return rrb.Grid(*views, text, other, grid_columns=2, name="Compare")
+    shares = [4, 4, 4, 6]  # the reports need their lines
+    return rrb.Grid(*views, text, other, grid_columns=2, row_shares=shares, name="Compare")
 
 
 def _photos_tab(contents: Contents) -> rrb.Container:

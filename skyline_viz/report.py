@@ -25,7 +25,7 @@ def report(name: str, detection: Detection, verdict: Verdict, shown: int) -> str
     edges = len(detection.scores)
     low, high = detection.thresholds
     lines = [
-        f"## {name or 'photo'}",
+        f"**{name or 'photo'}**  ",
         f"{width} x {height} px",
         "",
         *_verdict(verdict),
