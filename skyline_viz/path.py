@@ -69,7 +69,9 @@ def shortest_path(
     columns, reach = _problem(cost, delta, link_weight, constraints)
     forward = _forward(columns, reach, float(link_weight))
     _require_path(forward, constraints)
-    rows = _trace(forward, reach, float(link_weight))
+    rows = np.empty(len(forward), np.int32)
+    rows[-1] = cheapest_end(forward[-1])
+    trace(forward, reach, float(link_weight), rows, len(rows) - 1, 0)
     return Path(rows=rows, cost=float(forward[-1, rows[-1]]), forward=forward.T)
 
 
@@ -83,7 +85,9 @@ def path_tables(
     columns, reach = _problem(cost, delta, link_weight, constraints)
     forward = _forward(columns, reach, float(link_weight))
     _require_path(forward, constraints)
-    backward = _forward(columns[::-1], reach[::-1], float(link_weight))[::-1]
+    backward = np.empty_like(forward)
+    backward[-1] = columns[-1]
+    sweep(columns, reach, float(link_weight), backward, len(columns) - 1, 0)
     through = np.full_like(forward, np.inf)
     np.subtract(forward + backward, columns, out=through, where=np.isfinite(columns))
     return PathTables(forward=forward.T, backward=backward.T, min_marginals=through.T)
@@ -140,20 +144,30 @@ def _require_path(forward: F64, constraints: Constraints | None) -> None:
 def _forward(columns: F32, reach: Int, link_weight: float) -> F64:
     """Cheapest cost from column 0 to every pixel, ``(W, H)``; a window of reach pixels a link."""
     table = np.empty(columns.shape, np.float64)  # by numpy, which asks for huge pages
-    _fill_forward(columns, reach, link_weight, table)
+    table[0] = columns[0]
+    sweep(columns, reach, link_weight, table, 0, len(columns) - 1)
     return table
 
 
 @numba.njit(cache=True, nogil=True)
-def _fill_forward(columns: F32, reach: Int, link_weight: float, table: F64) -> None:
-    width, height = columns.shape
-    for row in range(height):
-        table[0, row] = columns[0, row]
-    for column in range(1, width):
-        before = table[column - 1]
+def sweep(columns: F32, reach: Int, link_weight: float, table: F64, first: int, last: int) -> None:
+    """Fill a table from column `first`, which holds its costs already, to column `last`.
+
+    Args:
+        columns: ``(W, H)`` nodal costs, column by column.
+        reach: ``(W - 1,)`` largest change of row on each link.
+        link_weight: Cost of one pixel of row change.
+        table: ``(W, H)`` cost of the cheapest path from column `first` to each pixel.
+        first: Where to begin.
+        last: The last column to fill, left or right of `first`.
+    """
+    height = columns.shape[1]
+    step = 1 if last >= first else -1
+    for column in range(first + step, last + step, step):
+        before = table[column - step]
         after = table[column]
         after[:] = before
-        for change in range(1, reach[column - 1] + 1):
+        for change in range(1, reach[min(column, column - step)] + 1):
             link = link_weight * change
             for row in range(height - change):
                 down = before[row + change] + link
@@ -166,22 +180,36 @@ def _fill_forward(columns: F32, reach: Int, link_weight: float, table: F64) -> N
 
 
 @numba.njit(cache=True, nogil=True)
-def _trace(table: F64, reach: Int, link_weight: float) -> Int:
-    """Rows of the cheapest path, walked back through its forward table."""
-    width, height = table.shape
-    rows = np.empty(width, np.int32)
+def cheapest_end(costs: F64) -> int:
+    """Row with the lowest of the costs ``(H,)``; among equals the one nearest the middle."""
+    height = len(costs)
     best = 0
     for row in range(height):
-        cheaper = table[-1, row] < table[-1, best]
         nearer = abs(2 * row - height) < abs(2 * best - height)
-        if cheaper or (table[-1, row] == table[-1, best] and nearer):
+        if costs[row] < costs[best] or (costs[row] == costs[best] and nearer):
             best = row
-    rows[-1] = best
-    for column in range(width - 2, -1, -1):
-        row = rows[column + 1]
+    return best
+
+
+@numba.njit(cache=True, nogil=True)
+def trace(table: F64, reach: Int, link_weight: float, rows: Int, first: int, last: int) -> None:
+    """Walk the cheapest path back through a table, from ``rows[first]`` to column `last`.
+
+    Args:
+        table: ``(W, H)`` as `sweep` filled it, from the other side.
+        reach: ``(W - 1,)`` largest change of row on each link.
+        link_weight: Cost of one pixel of row change.
+        rows: ``(W,)`` row of each column; that of `first` is given, the others are filled.
+        first: Where the walk begins.
+        last: Where it ends.
+    """
+    height = table.shape[1]
+    step = 1 if last >= first else -1
+    for column in range(first + step, last + step, step):
+        row = rows[column - step]
         best = row
         lowest = table[column, row]
-        for change in range(1, reach[column] + 1):
+        for change in range(1, reach[min(column, column - step)] + 1):
             link = link_weight * change
             if row - change >= 0 and table[column, row - change] + link < lowest:
                 best = row - change
@@ -190,4 +218,3 @@ def _trace(table: F64, reach: Int, link_weight: float) -> Int:
                 best = row + change
                 lowest = table[column, best] + link
         rows[column] = best
-    return rows

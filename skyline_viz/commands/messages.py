@@ -13,9 +13,9 @@ class UsageError(ValueError):
     """What was asked for cannot be done; the message is one sentence that says why."""
 
 
-def say(message: str) -> None:
-    """Print one line on stderr."""
-    print(f"skyline-viz: {message}", file=sys.stderr)
+def say(message: str, program: str = "skyline-viz") -> None:
+    """Print one line on stderr, after the name of the program."""
+    print(f"{program}: {message}", file=sys.stderr)
 
 
 def listed(names: Sequence[str], most: int = 8) -> str:

@@ -1,0 +1,51 @@
+"""The command ``skyline-annotate``: which commands there are."""
+
+from collections.abc import Sequence
+from typing import Annotated, Any, Union
+
+import tyro
+
+from annotate.commands.open import Open
+from annotate.commands.options import PROGRAM
+from annotate.commands.reports import Agreement, Status
+from annotate.commands.transfer import Backup, Export, Import
+from skyline_viz import __version__
+from skyline_viz.commands.program import Command, parsed, run_program
+from skyline_viz.commands.settings import asked_preset, config_of
+
+_ABOUT = f"""Label mountain skylines: the detector proposes, a few clicks correct, nothing is lost.
+
+Version {__version__} (--version). Each command explains itself: skyline-annotate open --help
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command line and return its exit status.
+
+    Args:
+        arguments: The words after the program's name; those of this process unless given.
+    """
+    return run_program(PROGRAM, parse, arguments)
+
+
+def parse(arguments: list[str]) -> Command:
+    """Turn a command line into a command.
+
+    Raises:
+        SystemExit: After help was printed, or what is wrong with the words.
+        ValueError: A setting has a value that it refuses.
+    """
+    missing: Any = tyro.MISSING
+    commands = {
+        "open": Open(missing, config=config_of(asked_preset(arguments))),
+        "export": Export(missing),
+        "import": Import(missing, missing),
+        "status": Status(missing),
+        "agreement": Agreement(missing),
+        "backup": Backup(missing),
+    }
+    kinds = tuple(
+        Annotated[type(default), tyro.conf.subcommand(name, default=default)]
+        for name, default in commands.items()
+    )
+    return parsed(PROGRAM, _ABOUT, Union[kinds], arguments)  # noqa: UP007  # known at run time

@@ -1,0 +1,1 @@
+"""The commands of ``skyline-annotate``, a module each."""

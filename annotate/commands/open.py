@@ -1,0 +1,177 @@
+"""``skyline-annotate open``: label the photos of a folder in the browser."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import socket
+import webbrowser
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import tyro
+
+from annotate.commands.options import PROGRAM, Annotator, PhotoFolder, check_folder, whoever
+from skyline_viz.commands.messages import GOOD, UsageError, counted, say
+from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detector
+from skyline_viz.config import DetectorConfig
+
+if TYPE_CHECKING:
+    from annotate.workbench import Workbench
+
+_LOCK = ".skyline-labels.lock"
+
+
+@dataclass(frozen=True)
+class Open:
+    """Label the photos of a folder in the browser: the detector proposes, a few clicks correct."""
+
+    folder: PhotoFolder
+    """Folder of photos; labels are kept in it, in skyline-labels.sqlite."""
+
+    annotator: Annotator = ""
+    """Who labels; the user's name unless given."""
+
+    pass_number: int = 1
+    """1 for the first pass over the photos, 2 to label them a second time."""
+
+    order: Literal["name", "margin", "random"] = "name"
+    """In which order: by name, the least certain proposal first, or shuffled."""
+
+    blind: float = 0.0
+    """Share of the photos, 0 to 1, that are labelled without a proposal, to measure its bias."""
+
+    seed: int = 0
+    """Seed of the shuffled order, and of which photos are blind."""
+
+    bank: BankFile = None
+    """Filter bank to propose with; the shipped one unless given."""
+
+    preset: Preset = "default"
+    """Where the settings below start from: the best that is known, or the published method."""
+
+    host: Annotated[str, tyro.conf.arg(metavar="ADDRESS")] = "127.0.0.1"
+    """Address to listen on; any other than the default lets other machines in."""
+
+    port: int = 0
+    """Port to listen on; 0 takes a free one."""
+
+    no_browser: Switch = False
+    """Print the address, and do not open it."""
+
+    config: DetectorConfig = field(default_factory=DetectorConfig)
+    """Single settings of the detector."""
+
+    def run(self) -> int:
+        """Serve until Ctrl-C; return the exit status."""
+        from filelock import FileLock, Timeout  # noqa: PLC0415
+
+        from annotate.database import StoreError  # noqa: PLC0415
+
+        self._check()
+        lock = FileLock(self.folder / _LOCK, timeout=0)
+        try:
+            lock.acquire()
+        except Timeout:
+            raise UsageError(
+                f"{self.folder} is open in another {PROGRAM}; close that one first."
+            ) from None
+        except OSError as error:
+            raise StoreError(
+                f"{self.folder} cannot be written, and labels are kept in it: "
+                f"{(error.strerror or str(error)).lower()}."
+            ) from error
+        with lock:
+            return self._serve()
+
+    def _check(self) -> None:
+        check_folder(self.folder)
+        if not 0 <= self.blind <= 1:
+            raise UsageError(f"--blind is a share from 0 to 1, not {self.blind}.")
+        if self.pass_number < 1:
+            raise UsageError(f"passes are numbered from 1, so there is no pass {self.pass_number}.")
+        if not 0 <= self.port < 2**16:
+            raise UsageError(f"ports are numbered up to 65535, so there is no port {self.port}.")
+
+    def _serve(self) -> int:
+        from annotate.store import Store  # noqa: PLC0415
+        from annotate.workbench import Assignment, Workbench  # noqa: PLC0415
+
+        who = Assignment(
+            whoever(self.annotator), self.pass_number, self.order, self.blind, self.seed
+        )
+        bench = Workbench(Store(self.folder), make_detector(self.bank, self.config), who)
+        if not bench.photos:
+            raise UsageError(f"{self.folder} holds no photograph.")
+        for problem in bench.store.problems:
+            say(problem, PROGRAM)
+        if self.order == "margin":
+            propose_all(bench)
+        progress = bench.progress()
+        left = progress.total - progress.done
+        print(f"{counted(progress.total, 'photo')} in {self.folder}, {left} to label.")
+        serve(bench, self.host, self.port, browser=not self.no_browser)
+        print(f"Labels are in {self.folder}.")
+        return GOOD
+
+
+def propose_all(bench: Workbench) -> None:
+    """Make all proposals that are missing, so that their margins can be compared."""
+    from skyline_viz.batch import sentence  # noqa: PLC0415
+    from skyline_viz.progress import ProgressBar  # noqa: PLC0415
+
+    waiting = [one for one in bench.cards() if one.margin is None and one.status == "to do"]
+    with ProgressBar(len(waiting), "proposing") as bar:
+        for card in waiting:
+            try:
+                bench.session(card.photo.id)
+            except Exception as error:  # the page shows it, too
+                say(sentence(error), PROGRAM)
+            bar.advance()
+
+
+def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
+    """Serve the page until Ctrl-C, and print its address."""
+    import uvicorn  # noqa: PLC0415
+
+    from annotate.security import allowed_hosts  # noqa: PLC0415
+    from annotate.server import make_app  # noqa: PLC0415
+    from skyline_viz.viewer import has_display  # noqa: PLC0415
+
+    listener = bound(host, port)
+    port = listener.getsockname()[1]
+    token = os.environ.get("SKYLINE_ANNOTATE_TOKEN") or secrets.token_urlsafe(24)
+    app = make_app(bench, token, allowed_hosts(host, port))
+    name = "127.0.0.1" if host in ("0.0.0.0", "::") else host  # noqa: S104
+    address = f"http://{f'[{name}]' if ':' in name else name}:{port}/?token={token}"
+    print(f"Label at {address}")
+    if host not in ("127.0.0.1", "::1", "localhost"):
+        say(f"{host} lets other machines in; whoever knows the address can change labels.", PROGRAM)
+    print("Ctrl-C ends.", flush=True)
+    if browser and has_display():
+        webbrowser.open(address)
+    config = uvicorn.Config(
+        app, log_level="warning", access_log=False, server_header=False, lifespan="on"
+    )
+    with suppress(KeyboardInterrupt):  # which the server raises again when it has stopped
+        uvicorn.Server(config).run(sockets=[listener])
+
+
+def bound(host: str, port: int) -> socket.socket:
+    """A socket that is bound to an address.
+
+    Raises:
+        UsageError: The address is taken, or not one of this machine.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    # said to be TCP, or answers would wait 40 ms for the other side's acknowledgement
+    listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((host, port))
+    except OSError as error:
+        listener.close()
+        reason = (error.strerror or str(error)).lower()
+        raise UsageError(f"cannot listen on {host}, port {port}: {reason}.") from error
+    return listener

@@ -1,0 +1,98 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+import getpass
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
+
+import tyro
+
+from skyline_viz.commands.messages import UsageError
+
+if TYPE_CHECKING:
+    from annotate.store import Store
+
+PROGRAM = "skyline-annotate"
+"""The program's name."""
+
+PhotoFolder: TypeAlias = Annotated[Path, tyro.conf.Positional, tyro.conf.arg(metavar="DIR")]
+"""The folder of the photos, in which their labels are kept."""
+
+Annotator: TypeAlias = Annotated[str, tyro.conf.arg(metavar="NAME")]
+"""Who; empty for whoever runs the command."""
+
+FormatName: TypeAlias = Literal["mask", "painted", "ch1", "csv", "json", "coco", "labelme", "cvat"]
+"""A format in which labels leave and come back."""
+
+
+def whoever(name: str) -> str:
+    """An annotator's name, or that of the user.
+
+    Raises:
+        UsageError: There is none.
+    """
+    if name.strip():
+        return name.strip()
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError, ImportError):
+        raise UsageError("who are you? Say it with --annotator NAME.") from None
+
+
+def check_folder(folder: Path) -> Path:
+    """Return a folder.
+
+    Raises:
+        UsageError: There is none.
+    """
+    if not folder.is_dir():
+        reason = "is a file, not a folder" if folder.exists() else "does not exist"
+        raise UsageError(f"{folder} {reason}.")
+    return folder
+
+
+@contextmanager
+def opened(folder: Path) -> Iterator[Store]:
+    """The labels of a folder that has some.
+
+    Raises:
+        UsageError: There is no such folder, or it has no labels.
+        StoreError: They cannot be opened.
+    """
+    from annotate.database import NAME  # noqa: PLC0415
+    from annotate.store import Store  # noqa: PLC0415
+
+    if not (check_folder(folder) / NAME).is_file():
+        raise UsageError(f"{folder} has no labels yet; make some: {PROGRAM} open {folder}.")
+    store = Store(folder)
+    try:
+        yield store
+    finally:
+        store.close()
+
+
+def chosen_pass(store: Store, annotator: str, number: int) -> tuple[str, int]:
+    """The pass that is meant: the one that was named, or the only one.
+
+    Args:
+        store: The labels.
+        annotator: A name; empty for the only annotator.
+        number: A number; 0 for the only pass.
+
+    Raises:
+        UsageError: There is none, or there are several.
+    """
+    found = [
+        (who, which)
+        for who, which in store.passes()
+        if annotator in ("", who) and number in (0, which)
+    ]
+    if len(found) == 1:
+        return found[0]
+    passes = ", ".join(f"{who} {which}" for who, which in found or store.passes())
+    if not found:
+        raise UsageError(f"there is no such pass; there are {passes or 'none'}.")
+    raise UsageError(f"which pass? There are {passes}; choose with --annotator and --pass-number.")

@@ -1,0 +1,73 @@
+"""Routes of the whole folder: its photos, sheets of strips, exports, learning."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, HTTPException, Query, Response
+
+from annotate.dependencies import Bench, TheLearner
+from annotate.formats import FORMATS, archive
+from annotate.labels import TAGS
+from annotate.messages import Learning, Nothing, PhotoList, Sheet, ShownPhoto, ShownProgress
+from annotate.store import Card
+from annotate.workbench import Workbench
+
+router = APIRouter()
+
+_SHEET = 24  # strips a page
+
+
+@router.get("/photos")
+def photos(bench: Bench) -> PhotoList:
+    """All photos, in the order in which they are labelled."""
+    who = bench.assignment
+    return PhotoList(
+        folder=bench.store.folder.resolve().name,
+        annotator=who.annotator,
+        number=who.number,
+        tags=TAGS,
+        photos=_shown(bench, bench.cards()),
+        progress=ShownProgress.of(bench.progress()),
+    )
+
+
+@router.get("/sheet")
+def sheet(
+    bench: Bench,
+    status: Annotated[str, Query(max_length=20)] = "to do",
+    page: Annotated[int, Query(ge=0, le=10**6)] = 0,
+) -> Sheet:
+    """A page of photos with one status, or with ``all`` of them."""
+    cards = [card for card in bench.cards() if status in ("all", card.status)]
+    pages = max(-(-len(cards) // _SHEET), 1)
+    first = min(page, pages - 1) * _SHEET
+    return Sheet(photos=_shown(bench, cards[first : first + _SHEET]), pages=pages)
+
+
+@router.post("/learn")
+def learn(learner: TheLearner, _: Nothing) -> Learning:
+    """Begin to learn from the accepted photos."""
+    learner.start()
+    return learner.now()
+
+
+@router.get("/learn")
+def learned(learner: TheLearner) -> Learning:
+    """How far learning is."""
+    return learner.now()
+
+
+@router.get("/exports/{format}", response_class=Response)
+def export(bench: Bench, format: str) -> Response:  # noqa: A002
+    """All accepted labels, as a ZIP file."""
+    if format not in FORMATS:
+        raise HTTPException(404, f"there is no such format; there are {', '.join(FORMATS)}.")
+    data = archive(bench.accepted(), bench.store.folder, format)
+    name = f'attachment; filename="skylines-{format}.zip"'
+    return Response(data, media_type="application/zip", headers={"Content-Disposition": name})
+
+
+def _shown(bench: Workbench, cards: list[Card]) -> list[ShownPhoto]:
+    folder = bench.store.folder
+    return [ShownPhoto.of(one, missing=not (folder / one.photo.name).is_file()) for one in cards]

@@ -1,0 +1,81 @@
+"""What is known about a photo that has been labelled, and the words for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.arrays import read_only
+from skyline_viz.skyline import Skyline
+
+ORIGINS = ("proposal", "solved", "straight", "drawn")
+"""Where the row of a column is from: offered by the detector and not changed since; solved under
+what the annotator asked for; on a straight span; drawn by hand."""
+
+STATUSES = ("to do", "in progress", "accepted", "needs review", "rejected")
+"""How far a photo is."""
+
+TAGS = ("no visible skyline", "not left to right", "needs terrain data")
+"""Tags that are offered; annotators add their own."""
+
+
+@dataclass(frozen=True, eq=False)
+class Label:
+    """One pass of an annotator over a photo."""
+
+    name: str
+    """The photo's file below the folder, with ``/`` between folders."""
+
+    digest: str
+    """SHA-256 of the photo's file, in hexadecimal: what the photo is known by."""
+
+    width: int
+    """Columns of the photo."""
+
+    height: int
+    """Its rows."""
+
+    annotator: str
+    """Who."""
+
+    number: int
+    """1 for the first pass of this annotator over the photo, 2 for the second."""
+
+    status: str
+    """One of `STATUSES`."""
+
+    tags: tuple[str, ...]
+    """What has been noted about the photo."""
+
+    skyline: Skyline | None
+    """The line, in whole rows; None where there is none yet."""
+
+    origin: npt.NDArray[np.uint8]
+    """``(W,)`` where the row of each column is from, as an index into `ORIGINS`."""
+
+    operations: tuple[dict[str, Any], ...]
+    """Everything that was done, oldest first: objects with ``kind`` and ``at``, a Unix time."""
+
+    seconds: float
+    """Time spent on it."""
+
+    detector: str
+    """What made the proposal, in words; empty for a label that is blind, or imported."""
+
+    blind: bool
+    """Whether it was labelled without a proposal."""
+
+    def __post_init__(self) -> None:
+        """Check that the widths agree, and freeze the array."""
+        if self.status not in STATUSES:
+            raise ValueError(f"the status of {self.name!r} is {self.status!r}, which is none.")
+        if self.skyline is not None and self.skyline.width != self.width:
+            raise ValueError(
+                f"{self.name!r} has {self.width} columns, its skyline {self.skyline.width}."
+            )
+        if self.origin.shape != (self.width,):
+            raise ValueError(f"{self.name!r} has {self.width} columns, and as many origins.")
+        read_only(self.origin)

@@ -1,0 +1,44 @@
+"""A line as the store keeps it: rows, visible columns and origins in a few hundred bytes."""
+
+from __future__ import annotations
+
+import zlib
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.skyline import Skyline
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A labelled skyline."""
+
+    skyline: Skyline
+    """Whole rows, and which columns are visible."""
+
+    origin: npt.NDArray[np.uint8]
+    """``(W,)`` where the row of each column is from, as an index into `labels.ORIGINS`."""
+
+    def packed(self) -> bytes:
+        """Bytes for the store: changes of the row from column to column, zlib-compressed."""
+        rows = self.skyline.rows.astype(np.int32)
+        changes = np.diff(rows, prepend=np.int32(0)).astype("<i4")
+        visible = self.skyline.visible.astype(np.uint8)
+        return zlib.compress(changes.tobytes() + visible.tobytes() + self.origin.tobytes(), 6)
+
+    @classmethod
+    def unpacked(cls, data: bytes) -> Line:
+        """Read what `packed` gave.
+
+        >>> line = Line(Skyline(rows=[3, 4, 9]), np.array([0, 1, 1], np.uint8))
+        >>> Line.unpacked(line.packed()).skyline == line.skyline
+        True
+        """
+        whole = zlib.decompress(data)
+        width = len(whole) // 6
+        rows = np.cumsum(np.frombuffer(whole, "<i4", width))
+        visible = np.frombuffer(whole, np.uint8, width, 4 * width).astype(np.bool_)
+        origin = np.frombuffer(whole, np.uint8, width, 5 * width)
+        return cls(Skyline(rows=rows.astype(np.float32), visible=visible), origin)

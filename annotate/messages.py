@@ -1,0 +1,252 @@
+"""What the server is asked and what it answers, as JSON."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from annotate.labels import ORIGINS
+from annotate.operations import Operation, Place, Status
+from annotate.session import Session
+from annotate.store import Card
+from annotate.workbench import Progress
+from skyline_viz.arrays import F64, Int
+
+Revision = Annotated[int, Field(ge=-1, le=2**62)]
+"""The revision that a request was made on; -1 for any."""
+
+
+class _Request(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class Apply(_Request):
+    """Do an operation."""
+
+    revision: Revision
+    operation: Operation
+
+
+class Step(_Request):
+    """Undo or redo."""
+
+    revision: Revision
+
+
+class Pixel(_Request):
+    """Where the cursor is, and which anchor it drags, if any."""
+
+    column: Place
+    row: Place
+    lifted: Place | None = None
+
+
+class Nothing(_Request):
+    """A request that says nothing but that it is one."""
+
+
+class ShownPhoto(BaseModel):
+    """A photo in the list."""
+
+    id: int
+    name: str
+    width: int
+    height: int
+    status: Status
+    tags: tuple[str, ...]
+    margin: float | None
+    blind: bool
+    missing: bool
+    seconds: float
+
+    @classmethod
+    def of(cls, card: Card, *, missing: bool) -> ShownPhoto:
+        """Show a card."""
+        photo = card.photo
+        return cls(
+            id=photo.id,
+            name=shown_name(photo.name),
+            width=photo.width,
+            height=photo.height,
+            status=card.status,  # type: ignore[arg-type]  # the log holds nothing else
+            tags=card.tags,
+            margin=finite(card.margin),
+            blind=card.blind,
+            missing=missing,
+            seconds=card.seconds,
+        )
+
+
+class ShownProgress(BaseModel):
+    """How far a pass is."""
+
+    done: int
+    total: int
+    seconds_a_photo: float | None
+    seconds_left: float | None
+
+    @classmethod
+    def of(cls, progress: Progress) -> ShownProgress:
+        """Show a progress."""
+        return cls(**vars(progress))
+
+
+class PhotoList(BaseModel):
+    """All photos, in their order."""
+
+    folder: str
+    annotator: str
+    number: int
+    tags: tuple[str, ...]
+    photos: list[ShownPhoto]
+    progress: ShownProgress
+
+
+class ShownSpan(BaseModel):
+    """A span."""
+
+    kind: str
+    first: int
+    last: int
+
+
+class ShownStroke(BaseModel):
+    """A stroke of the brush."""
+
+    points: tuple[tuple[int, int], ...]
+    radius: int
+    allow: bool
+
+
+class Document(BaseModel):
+    """A photo with everything that was done to it."""
+
+    id: int
+    name: str
+    width: int
+    height: int
+    revision: int
+    status: Status
+    tags: tuple[str, ...]
+    blind: bool
+    rows: list[int] | None
+    hidden: tuple[tuple[int, int], ...]
+    anchors: list[tuple[int, int]]
+    spans: list[ShownSpan]
+    forbidden: list[ShownStroke]
+    can_undo: bool
+    can_redo: bool
+    origins: dict[str, int]
+
+    @classmethod
+    def of(cls, session: Session) -> Document:
+        """Show a session; hold its lock meanwhile."""
+        wire, state, edits = session.wire, session.state, session.wire.edits
+        counts = np.bincount(wire.origin, minlength=len(ORIGINS)).tolist()
+        return cls(
+            id=session.photo.id,
+            name=shown_name(session.photo.name),
+            width=session.photo.width,
+            height=session.photo.height,
+            revision=state.revision,
+            status=state.status,  # type: ignore[arg-type]  # the log holds nothing else
+            tags=state.tags,
+            blind=session.blind,
+            rows=None if wire.empty else wire.skyline.rows.astype(int).tolist(),
+            hidden=edits.hidden,
+            anchors=sorted(edits.anchors.items()),
+            spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
+            forbidden=[ShownStroke(**vars(one)) for one in edits.strokes],
+            can_undo=bool(state.done),
+            can_redo=bool(state.undone),
+            origins=dict(zip(ORIGINS, counts, strict=True)),
+        )
+
+
+class Part(BaseModel):
+    """The part of a line that differs from the current one."""
+
+    first: int
+    rows: list[int]
+
+    @classmethod
+    def of(cls, rows: Int, before: Int | None) -> Part:
+        """What differs, and a column more on either side, so that it can be joined."""
+        first, stop = 0, len(rows)
+        if before is not None:
+            changed = np.flatnonzero(rows != before)
+            if len(changed) == 0:
+                return cls(first=0, rows=[])
+            first, stop = max(int(changed[0]) - 1, 0), int(changed[-1]) + 2
+        return cls(first=first, rows=rows[first:stop].tolist())
+
+
+class Margins(BaseModel):
+    """How sure the line is, column by column; null where its row is fixed."""
+
+    revision: int
+    margins: list[float | None]
+    uncertain: list[int]
+
+    @classmethod
+    def of(cls, revision: int, margins: F64) -> Margins:
+        """Show margins, and the least certain columns, apart from each other."""
+        apart = max(len(margins) // 20, 1)
+        uncertain: list[int] = []
+        for column in np.argsort(margins, kind="stable").tolist():
+            if len(uncertain) == _MOST_UNCERTAIN or not math.isfinite(margins[column]):
+                break
+            if all(abs(column - one) >= apart for one in uncertain):
+                uncertain.append(column)
+        values = [finite(value, 4) for value in margins.tolist()]
+        return cls(revision=revision, margins=values, uncertain=uncertain)
+
+
+class ShownAlternative(BaseModel):
+    """Another line through a column."""
+
+    row: int
+    detour: float
+
+
+class Alternatives(BaseModel):
+    """Other lines through a column, the cheapest first."""
+
+    alternatives: list[ShownAlternative]
+
+
+class Sheet(BaseModel):
+    """A page of straightened strips."""
+
+    photos: list[ShownPhoto]
+    pages: int
+
+
+class Viewer(BaseModel):
+    """Where a viewer is."""
+
+    url: str
+
+
+class Learning(BaseModel):
+    """How far learning from the labels is."""
+
+    state: str
+    detail: str
+    changed: int
+
+
+_MOST_UNCERTAIN = 20
+
+
+def finite(value: float | None, digits: int = 6) -> float | None:
+    """A number that JSON can hold, or None."""
+    return None if value is None or not math.isfinite(value) else round(value, digits)
+
+
+def shown_name(name: str) -> str:
+    """A file's name as text: bytes that are no text become question marks."""
+    return name.encode("utf-8", "replace").decode("utf-8")

@@ -1,0 +1,110 @@
+"""Routes of one photo: what was done to it, previews, and everything that changes it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from fastapi import APIRouter, HTTPException
+
+from annotate.dependencies import Bench, Column, PhotoId, Stages
+from annotate.messages import (
+    Alternatives,
+    Apply,
+    Document,
+    Margins,
+    Nothing,
+    Part,
+    Pixel,
+    ShownAlternative,
+    Step,
+    Viewer,
+)
+from annotate.session import Session
+from annotate.store import StaleError
+from annotate.workbench import Workbench
+
+router = APIRouter(prefix="/photos/{photo}")
+
+BLIND = "the photo is labelled blind, so nothing of the detector is shown."
+
+
+@router.get("")
+def document(bench: Bench, photo: PhotoId) -> Document:
+    """A photo with everything that was done to it; the next one is prepared meanwhile."""
+    session = bench.session(photo)
+    bench.prepare_after(photo)
+    with session.lock:
+        return Document.of(session)
+
+
+@router.get("/margins")
+def margins(bench: Bench, photo: PhotoId) -> Margins:
+    """How sure the line is, column by column."""
+    session = bench.session(photo)
+    with session.lock:
+        return Margins.of(session.state.revision, session.wire.margin)
+
+
+@router.post("/preview")
+def preview(bench: Bench, photo: PhotoId, pixel: Pixel) -> Part:
+    """The part of the line that an anchor would change."""
+    session = bench.session(photo)
+    with session.lock:
+        wire = session.wire
+        rows = wire.preview(pixel.column, pixel.row, pixel.lifted).rows.astype(int)
+        return Part.of(rows, None if wire.empty else wire.skyline.rows.astype(int))
+
+
+@router.get("/alternatives/{column}")
+def alternatives(bench: Bench, photo: PhotoId, column: Column) -> Alternatives:
+    """Other lines through a column."""
+    session = bench.session(photo)
+    if column >= session.photo.width:
+        raise HTTPException(422, f"the photo has {session.photo.width} columns.")
+    with session.lock:
+        found = session.wire.alternatives(column)
+    return Alternatives(
+        alternatives=[ShownAlternative(row=one.row, detour=one.detour) for one in found]
+    )
+
+
+@router.post("/operations")
+def operate(bench: Bench, photo: PhotoId, asked: Apply) -> Document:
+    """Do something to a photo. When this is answered, it is on the disk."""
+    return _change(bench, photo, lambda session: session.apply(asked.operation, asked.revision))
+
+
+@router.post("/undo")
+def undo(bench: Bench, photo: PhotoId, asked: Step) -> Document:
+    """Take the last edit back."""
+    return _change(bench, photo, lambda session: session.undo(asked.revision))
+
+
+@router.post("/redo")
+def redo(bench: Bench, photo: PhotoId, asked: Step) -> Document:
+    """Do again what was taken back."""
+    return _change(bench, photo, lambda session: session.redo(asked.revision))
+
+
+@router.post("/rerun")
+def rerun(bench: Bench, stages: Stages, photo: PhotoId, _: Nothing) -> Viewer:
+    """Show the stages of a photo in Rerun, with the current line as truth."""
+    session = bench.session(photo)
+    if session.blind:
+        raise HTTPException(403, BLIND)
+    with session.lock:
+        line = session.wire.skyline
+    return Viewer(url=stages.show(bench.detection(photo), line, session.photo.name))
+
+
+def _change(bench: Workbench, photo: int, how: Callable[[Session], None]) -> Document:
+    session = bench.session(photo)
+    try:
+        with session.lock:
+            how(session)
+            document = Document.of(session)
+    except StaleError:
+        bench.close_photo(photo)  # another program may have changed the labels
+        raise
+    bench.refresh(session)
+    return document

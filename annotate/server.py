@@ -1,0 +1,102 @@
+"""The labelling server: its routes put together, and its errors in plain sentences."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import FileResponse, JSONResponse
+from fastapi.staticfiles import StaticFiles
+from starlette.exceptions import HTTPException
+
+from annotate import folder_routes, photo_routes, picture_routes
+from annotate.database import StoreError
+from annotate.edits import EditError
+from annotate.formats import FormatError
+from annotate.learning import Learner
+from annotate.security import Guard
+from annotate.stage_viewer import StageViewer
+from annotate.store import StaleError
+from annotate.workbench import UnknownPhotoError, Workbench
+from skyline_viz.constraints import PathError
+from skyline_viz.photo import PhotoError
+from skyline_viz.viewer import ViewerError
+
+STATIC = Path(__file__).with_name("static")
+"""The page."""
+
+_STATUSES: dict[type[Exception], int] = {
+    StaleError: 409,
+    PathError: 422,
+    EditError: 422,
+    UnknownPhotoError: 404,
+    PhotoError: 410,
+    FormatError: 422,
+    StoreError: 507,
+    ViewerError: 503,
+}
+
+
+def make_app(bench: Workbench, token: str, hosts: frozenset[str]) -> Guard:
+    """The server's application.
+
+    Args:
+        bench: What to work with; it is closed with the server.
+        token: What the page has to know.
+        hosts: Host names with ports under which the server may be called.
+    """
+    viewer = StageViewer()
+
+    @asynccontextmanager
+    async def alive(_: FastAPI) -> AsyncIterator[None]:
+        yield
+        viewer.close()
+        bench.close()
+
+    app = FastAPI(
+        title="skyline-annotate",
+        lifespan=alive,
+        docs_url=None,
+        redoc_url=None,
+        openapi_url="/api/openapi.json",
+    )
+    app.state.bench, app.state.viewer, app.state.learner = bench, viewer, Learner(bench)
+    for kind, status in _STATUSES.items():
+        app.add_exception_handler(kind, _sentence(status))
+    app.add_exception_handler(RequestValidationError, _invalid)
+    app.add_exception_handler(HTTPException, _refused)
+    app.mount("/static", StaticFiles(directory=STATIC), "static")
+    app.add_api_route("/", _page, include_in_schema=False)
+    for routes in (folder_routes, photo_routes, picture_routes):
+        app.include_router(routes.router, prefix="/api")
+    return Guard(app, token, hosts)
+
+
+def _page() -> FileResponse:
+    return FileResponse(STATIC / "index.html", media_type="text/html; charset=utf-8")
+
+
+def _sentence(status: int) -> Callable[[Request, Exception], JSONResponse]:
+    def answer(_: Request, error: Exception) -> JSONResponse:
+        said = str(error)
+        return JSONResponse({"detail": said if said.endswith(".") else f"{said}."}, status)
+
+    return answer
+
+
+def _invalid(_: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, RequestValidationError)
+    first = error.errors()[0]
+    place = ".".join(str(part) for part in first["loc"] if part != "body")
+    said = str(first["msg"])
+    return JSONResponse({"detail": f"{place or 'the request'}: {said[:1].lower()}{said[1:]}."}, 422)
+
+
+def _refused(_: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, HTTPException)
+    said = str(error.detail)
+    sentence = said if said.endswith(".") else f"{said.lower()}."
+    return JSONResponse({"detail": sentence}, error.status_code, error.headers)

@@ -1,0 +1,250 @@
+"""What a server works with: a folder, who labels it and in which order, and its open photos."""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from annotate import images
+from annotate.labels import Label
+from annotate.session import Session, read_whole
+from annotate.store import Card, Photo, Store
+from skyline_viz.detector import Detection, Detector
+
+Order = Literal["name", "margin", "random"]
+"""In which order photos are labelled: by name, the least certain first, or shuffled."""
+
+_OPEN = 3  # photos that are kept open: this one, the one before, and the next
+
+
+class UnknownPhotoError(LookupError):
+    """There is no photo with this id."""
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """Who labels, and how."""
+
+    annotator: str
+    """Who."""
+
+    number: int = 1
+    """1 for the first pass over the photos, 2 for the second."""
+
+    order: Order = "name"
+    """In which order."""
+
+    blind: float = 0.0
+    """Share of the photos that are labelled without a proposal, in [0, 1]."""
+
+    seed: int = 0
+    """Seed of what is random: the order, and which photos are blind."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a pass over the photos is."""
+
+    done: int
+    """Photos that are accepted or rejected."""
+
+    total: int
+    """All photos."""
+
+    seconds_a_photo: float | None
+    """Mean time of those that are done; None before the first one."""
+
+    seconds_left: float | None
+    """Time that the others will take."""
+
+
+class Workbench:
+    """A pass of an annotator over the photos of a folder."""
+
+    def __init__(self, store: Store, detector: Detector, assignment: Assignment) -> None:
+        """Find the photos.
+
+        Args:
+            store: The labels.
+            detector: What proposes.
+            assignment: Who labels, and how.
+        """
+        self.store, self.detector, self.assignment = store, detector, assignment
+        self.photos = {photo.id: photo for photo in store.find()}
+        self._labels: dict[int, int] = {}
+        self._open: OrderedDict[int, Future[Session]] = OrderedDict()
+        self._lock = threading.RLock()
+        self._ahead = ThreadPoolExecutor(1, "ahead")
+        self._soon = ThreadPoolExecutor(1, "soon")
+        self._thumbnails: dict[int, bytes] = {}
+        self._detection: tuple[int, int, Detection] | None = None
+        chance = np.random.default_rng([assignment.seed, 1])
+        drawn = chance.random(len(self.photos)) < assignment.blind
+        by_content = sorted(self.photos.values(), key=lambda photo: photo.digest)
+        self._blind = {one.id for one, is_blind in zip(by_content, drawn, strict=True) if is_blind}
+
+    def close(self) -> None:
+        """Finish what is being prepared, and close the labels."""
+        self._ahead.shutdown(cancel_futures=True)
+        self._soon.shutdown(cancel_futures=True)
+        self.store.close()
+
+    def cards(self) -> list[Card]:
+        """All photos of the folder in short, in the order of the assignment."""
+        who = self.assignment
+        found = self.store.cards(who.annotator, who.number)
+        cards = [found[photo] for photo in self.photos if photo in found]
+        if who.order == "margin":
+            unknown = float("inf")
+            cards.sort(key=lambda card: unknown if card.margin is None else card.margin)
+        elif who.order == "random":
+            places = np.random.default_rng([who.seed, 2]).permutation(len(cards))
+            cards = [cards[place] for place in places.tolist()]
+        return cards
+
+    def progress(self) -> Progress:
+        """How far the pass is."""
+        cards = self.cards()
+        done = [card for card in cards if card.status in ("accepted", "rejected")]
+        timed = [card.seconds for card in done]
+        each = sum(timed) / len(timed) if timed else None
+        left = None if each is None else each * (len(cards) - len(done))
+        return Progress(len(done), len(cards), each, left)
+
+    def photo(self, photo: int) -> Photo:
+        """A photo by its id.
+
+        Raises:
+            UnknownPhotoError: There is none.
+        """
+        if photo not in self.photos:
+            raise UnknownPhotoError(f"there is no photo number {photo}.")
+        return self.photos[photo]
+
+    def label(self, photo: int) -> int:
+        """Id of the label of a photo in this pass, which is made where there is none."""
+        with self._lock:
+            if photo not in self._labels:
+                who, blind = self.assignment, photo in self._blind
+                self._labels[photo] = self.store.begin(
+                    photo, who.annotator, who.number, blind=blind
+                )
+            return self._labels[photo]
+
+    def session(self, photo: int) -> Session:
+        """A photo, open for labelling.
+
+        Raises:
+            UnknownPhotoError: There is none.
+            PhotoError: It has vanished, or cannot be read.
+        """
+        future, mine = self._future(photo)
+        if mine:
+            self._fill(photo, future)
+        return future.result()
+
+    def prepare_after(self, photo: int) -> None:
+        """Open the photo in the background that comes next: the first to do after this one."""
+
+        def work() -> None:
+            cards = self.cards()
+            place = next((at for at, one in enumerate(cards) if one.photo.id == photo), 0)
+            rest = cards[place + 1 :] + cards[:place]
+            waiting = [card for card in rest if card.status == "to do"]
+            if waiting:
+                following, mine = self._future(waiting[0].photo.id)
+                if mine:
+                    self._fill(waiting[0].photo.id, following)
+
+        self._ahead.submit(work)
+
+    def refresh(self, session: Session) -> None:
+        """Bring a photo's tables up to date in the background, before the next question."""
+        self._soon.submit(session.refresh)
+
+    def close_photo(self, photo: int) -> None:
+        """Forget an open photo: it is read from the disk again when it is asked for."""
+        with self._lock:
+            self._open.pop(photo, None)
+
+    def propose_again(self, detector: Detector) -> int:
+        """Let another detector propose for the photos nobody has worked on; return how many."""
+        self.detector = detector
+        waiting = [card for card in self.cards() if card.status == "to do" and not card.blind]
+        changed = 0
+        for card in waiting:
+            self.close_photo(card.photo.id)
+            before = card.margin
+            self.session(card.photo.id)
+            changed += before is not None
+        return changed
+
+    def detection(self, photo: int) -> Detection:
+        """All stages of a photo, by the detector that made its proposal; the last one is kept."""
+        session = self.session(photo)
+        with self._lock:
+            kept = self._detection
+            if kept and kept[:2] == (photo, id(session.detector)):
+                return kept[2]
+        found = session.detector.detect(session.pixels)
+        with self._lock:
+            self._detection = (photo, id(session.detector), found)
+        return found
+
+    def accepted(self) -> list[Label]:
+        """Accepted labels of this pass."""
+        who = self.assignment
+        labels = self.store.labels(who.annotator, who.number)
+        return [label for label in labels if label.status == "accepted"]
+
+    def thumbnail(self, photo: int) -> bytes:
+        """A small picture of a photo, as JPEG."""
+        if photo not in self._thumbnails:
+            pixels = read_whole(self.store.folder, self.photo(photo))
+            self._thumbnails[photo] = images.thumbnail(pixels)
+        return self._thumbnails[photo]
+
+    def strip(self, photo: int, width: int) -> bytes:
+        """The straightened strip of a photo, as PNG.
+
+        Raises:
+            PathError: There is no line yet.
+        """
+        with self._lock:
+            waiting = self._open.get(photo)
+        state = self.store.state(self.label(photo))
+        if state.line is None or (waiting and waiting.done()):
+            session = self.session(photo)
+            with session.lock:
+                return images.strip(session.pixels, session.wire.skyline, width)
+        pixels = read_whole(self.store.folder, self.photo(photo))
+        return images.strip(pixels, state.line.skyline, width)
+
+    def _future(self, photo: int) -> tuple[Future[Session], bool]:
+        """What an open photo will be, and whether the caller has to open it."""
+        self.photo(photo)
+        with self._lock:
+            if photo in self._open:
+                self._open.move_to_end(photo)
+                return self._open[photo], False
+            future: Future[Session] = Future()
+            self._open[photo] = future
+            while len(self._open) > _OPEN:
+                self._open.popitem(last=False)
+            return future, True
+
+    def _fill(self, photo: int, future: Future[Session]) -> None:
+        try:
+            label = self.label(photo)
+            blind = self.store.is_blind(label)
+            future.set_result(
+                Session(self.store, self.photo(photo), label, self.detector, blind=blind)
+            )
+        except BaseException as error:
+            self.close_photo(photo)
+            future.set_exception(error)

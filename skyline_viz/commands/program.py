@@ -1,0 +1,125 @@
+"""What our programs have in common: commands are parsed into dataclasses, errors are sentences.
+
+Whatever is wrong with the input ends in one plain sentence on stderr and a status from
+`skyline_viz.commands.messages`, never in a traceback.
+"""
+
+import contextlib
+import io
+import os
+import sys
+import traceback
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+import tyro
+
+from skyline_viz import __version__
+from skyline_viz.batch import BatchError, sentence
+from skyline_viz.commands.messages import (
+    BROKEN_PIPE,
+    GOOD,
+    INTERRUPTED,
+    SOME_FAILED,
+    USAGE,
+    say,
+)
+
+
+class Command(Protocol):
+    """Parsed options of a command."""
+
+    def run(self) -> int:
+        """Do it; return the exit status."""
+
+
+def run_program(
+    program: str, parse: Callable[[list[str]], Command], arguments: Sequence[str] | None
+) -> int:
+    """Run a command line and return its exit status.
+
+    Args:
+        program: The program's name.
+        parse: Turns the words after the name into a command.
+        arguments: These words; those of this process unless given.
+    """
+    try:
+        status = _run(program, parse, sys.argv[1:] if arguments is None else list(arguments))
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        say("interrupted; every file that was written is whole.", program)
+        return INTERRUPTED
+    except BrokenPipeError:  # somebody read as much as they wanted
+        _silence_stdout()
+        return BROKEN_PIPE
+    except Exception as error:
+        if (known := _status_of(error)) is None:
+            raise
+        text = sentence(error)
+        say(text if text.endswith((".", "?", "!")) else f"{text}.", program)
+        return known
+    return status
+
+
+def parsed(program: str, about: str, commands: Any, arguments: Sequence[str]) -> Command:  # noqa: ANN401
+    """Turn a command line into a command.
+
+    Args:
+        program: The program's name.
+        about: What it is for, for its help.
+        commands: All commands, as one type.
+        arguments: The words after the name.
+
+    Raises:
+        SystemExit: After help was printed, or what is wrong with the words.
+        ValueError: A setting has a value that it refuses.
+    """
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(said):
+            command: Command = tyro.cli(
+                commands, prog=program, description=about, args=list(arguments)
+            )
+    except SystemExit as leaving:
+        if refusal := _refusal_behind(leaving):
+            raise refusal from None
+        sys.stderr.write(said.getvalue())
+        raise
+    return command
+
+
+def _run(program: str, parse: Callable[[list[str]], Command], arguments: list[str]) -> int:
+    if arguments == ["--version"]:
+        print(f"{program} {__version__}")
+        return GOOD
+    try:
+        command = parse(arguments)
+    except SystemExit as leaving:  # help, or a command line that makes no sense
+        return leaving.code if isinstance(leaving.code, int) else USAGE
+    return command.run()
+
+
+def _refusal_behind(error: BaseException) -> ValueError | None:
+    """The sentence with which one of our dataclasses refused a value, where tyro stopped for it."""
+    cause: BaseException | None = error
+    while cause is not None:
+        frames = traceback.extract_tb(cause.__traceback__)
+        if isinstance(cause, ValueError) and any(f.name == "__post_init__" for f in frames):
+            return cause
+        cause = cause.__cause__ or cause.__context__
+    return None
+
+
+def _status_of(error: Exception) -> int | None:
+    """Exit status for an error that has a plain sentence; None for a fault of this program."""
+    from skyline_viz.photo import PhotoError  # noqa: PLC0415  # not needed for help
+
+    if isinstance(error, ValueError | PhotoError):
+        return USAGE
+    return SOME_FAILED if isinstance(error, OSError | MemoryError | BatchError) else None
+
+
+def _silence_stdout() -> None:
+    """Let the interpreter flush into nothing when it ends, instead of complaining."""
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
