@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic import BaseModel, ConfigDict, Field, Strict, TypeAdapter
 
 from annotate.edits import Edits
 from annotate.labels import STATUSES
@@ -16,7 +16,10 @@ from annotate.labels import STATUSES
 Place: TypeAlias = Annotated[int, Field(ge=-100_000, le=100_000)]
 """A row or a column; whether it lies inside the photo is checked against the photo."""
 
-Points: TypeAlias = Annotated[list[tuple[Place, Place]], Field(min_length=1, max_length=5000)]
+Point: TypeAlias = Annotated[tuple[Place, Place], Strict(False)]
+"""Column and row; JSON knows lists only, which are no tuples to those who are strict."""
+
+Points: TypeAlias = Annotated[list[Point], Field(min_length=1, max_length=5000)]
 """Column and row of each point of a stroke."""
 
 Status: TypeAlias = Literal["to do", "in progress", "accepted", "needs review", "rejected"]

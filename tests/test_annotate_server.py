@@ -108,6 +108,9 @@ def test_what_was_acknowledged_is_there_after_a_restart(tmp_path):
         do(client, 1, {"kind": "hidden", "first": 0, "last": 5})
         do(client, 1, {"kind": "straight", "column": 30, "row": 9, "to_column": 36, "to_row": 12})
         kept = do(client, 1, {"kind": "drawn", "first": 64, "rows": [7, 8, 9]}).json()
+        assert kept["forbidden"] == [{"points": [[50, 30], [60, 30]], "radius": 3, "allow": False}]
+        assert kept["hidden"] == [[0, 5]]
+        assert kept["rows"][64:67] == [7, 8, 9]
     with served(folder) as client:
         assert client.get("/api/photos/1").json() == kept
         undone = client.post("/api/photos/1/undo", json={"revision": kept["revision"]}).json()

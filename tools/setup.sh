@@ -66,4 +66,12 @@ if [ "$(uname)" = Linux ] && ! vulkan; then
         [ "$kind" = run ]  # tests look at such pictures
     }
 fi
+# Tests drive the labelling page in a real browser.
+browser() { command -v chromium || command -v chromium-browser || command -v google-chrome; }
+if [ "$kind" = dev ] && [ "$(uname)" = Linux ] && ! browser >/dev/null 2>&1; then
+    apt_install chromium || .venv/bin/python -m playwright install chromium || {
+        say "neither apt-get nor Playwright could install Chromium; tests of the labelling page need it."
+        exit 1
+    }
+fi
 touch ".venv/.installed-$kind"

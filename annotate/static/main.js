@@ -297,11 +297,15 @@ labelling.addEventListener("document", ({ detail }) => {
   find("tag-count").textContent = shown.tags.length ? ` ${shown.tags.length}` : "";
   document.title = `${shown.name} - skyline-annotate`;
 });
+let slow; // what is saved within a blink is not worth a word
 labelling.addEventListener("saving", () => {
   find("saving").dataset.state = labelling.waiting ? "unsaved" : "saved";
-  clearTimeout(labelling.slow);
-  if (labelling.waiting) labelling.slow = setTimeout(() => (find("saving").textContent = "not saved"), 400);
-  else find("saving").textContent = "saved";
+  if (labelling.waiting) slow ??= setTimeout(() => (find("saving").textContent = "not saved"), 400);
+  else {
+    clearTimeout(slow);
+    slow = undefined;
+    find("saving").textContent = "saved";
+  }
 });
 labelling.addEventListener("said", ({ detail }) => {
   find("said").textContent = detail.text;

@@ -125,11 +125,11 @@ export class Sheet {
   }
 
   async #set(card, photo, status) {
+    this.#focus(Number(card.dataset.at) + 1);
     try {
       const body = { revision: -1, operation: { kind: "status", status } };
       photo.status = (await post(`api/photos/${photo.id}/operations`, body)).status;
       this.#say(card, photo);
-      this.#focus(Number(card.dataset.at) + 1);
       await this.#labelling.load();
       this.#labelling.say(`${photo.name} is ${photo.status}.`);
     } catch (error) {
