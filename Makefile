@@ -16,10 +16,11 @@ check: .venv/.installed-dev  ## Lint and types only.
 bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the folder of the real data sets.
 	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)")
 
-pictures: .venv/.installed-run  ## Draw the pictures of the docs again.
+pictures: .venv/.installed-dev  ## Draw the pictures of the docs again.
 	.venv/bin/skyline-viz inspect sample_data/images/hazy-1.jpg --truth sample_data/masks/hazy-1.png \
 	    --compare paper --screenshot docs/inspect.jpg
 	.venv/bin/skyline-viz gallery sample_data --screenshot docs/gallery.jpg
+	.venv/bin/python -m tools.page_pictures docs
 
 samples: .venv/.installed-run  ## Rebuild sample_data, byte for byte.
 	.venv/bin/skyline-viz render --out sample_data

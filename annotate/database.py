@@ -139,6 +139,8 @@ def sentences(path: Path) -> Iterator[None]:
         if "locked" in said:
             raise StoreError(f"{path} is being written by another program; try again.") from error
         raise StoreError(f"{path}: {said}.") from error
+    except sqlite3.IntegrityError:
+        raise  # a fault of this program, not of the file
     except sqlite3.DatabaseError as error:
         raise StoreError(f"{path} is damaged: {error}; restore it from a backup.") from error
 

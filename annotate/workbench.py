@@ -127,7 +127,12 @@ class Workbench:
         return self.photos[photo]
 
     def label(self, photo: int) -> int:
-        """Id of the label of a photo in this pass, which is made where there is none."""
+        """Id of the label of a photo in this pass, which is made where there is none.
+
+        Raises:
+            UnknownPhotoError: There is no such photo.
+        """
+        self.photo(photo)
         with self._lock:
             if photo not in self._labels:
                 who, blind = self.assignment, photo in self._blind

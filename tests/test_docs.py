@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import annotate.cli
 import skyline_viz
 from skyline_viz.bins import Bins
 from skyline_viz.cli import main
@@ -17,13 +18,19 @@ from skyline_viz.config import DetectorConfig, TrainingConfig
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 COMMANDS = ("detect", "inspect", "gallery", "train", "evaluate", "render", "demo")
+LABELLING = ("open", "export", "import", "status", "agreement", "backup")
+PROGRAMS = [(main, COMMANDS), (annotate.cli.main, LABELLING)]
 
 
-def options_of(command: str) -> set[str]:
+def help_of(program, *words) -> str:
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        assert main([command, "--help"]) == 0
-    return set(re.findall(r"(?<![\w-])--[a-z][a-z.-]*[a-z]", said.getvalue()))
+        assert program([*words, "--help"]) == 0
+    return said.getvalue()
+
+
+def options_of(program, command: str) -> set[str]:
+    return set(re.findall(r"(?<![\w-])--[a-z][a-z.-]*[a-z]", help_of(program, command)))
 
 
 def settings() -> set[str]:
@@ -34,12 +41,10 @@ def settings() -> set[str]:
 
 def test_the_reference_lists_exactly_the_commands_there_are():
     reference = (ROOT / "docs" / "reference.md").read_text()
-    listed = re.findall(r"^\| `([a-z]+)[^`]*` \|", reference.split("## Settings")[0], re.MULTILINE)
-    assert listed == list(COMMANDS)
-    said = io.StringIO()
-    with contextlib.redirect_stdout(said):
-        assert main(["--help"]) == 0
-    assert set(re.findall(r"• ([a-z]+) ", said.getvalue())) == set(COMMANDS)
+    parts = [reference.split("## Settings")[0], reference.split("## Labelling commands")[1]]
+    for part, (program, commands) in zip(parts, PROGRAMS, strict=True):
+        assert re.findall(r"^\| `([a-z]+)[^`]*` \|", part, re.MULTILINE) == list(commands)
+        assert set(re.findall(r"• ([a-z]+) ", help_of(program))) == set(commands)
 
 
 def test_the_reference_lists_exactly_the_settings_there_are():
@@ -59,7 +64,9 @@ def test_the_reference_gives_the_defaults_of_both_presets(field):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_every_option_that_a_page_names_exists(page):
-    known = set().union(*(options_of(command) for command in COMMANDS)) | {"--version"}
+    known = {"--version"}
+    for program, commands in PROGRAMS:
+        known |= set().union(*(options_of(program, command) for command in commands))
     named = set(re.findall(r"(?<![\w-])--[a-z][a-z.-]*[a-z*]", page.read_text()))
     families = {name for name in named if name.endswith("*")}
     assert named - families <= known
@@ -70,9 +77,19 @@ def test_every_option_that_a_page_names_exists(page):
 def test_every_option_is_named_in_the_reference():
     reference = (ROOT / "docs" / "reference.md").read_text()
     plain = re.compile(r"--(config|training)\.")
-    for command in COMMANDS:
-        for option in options_of(command) - {"--help"}:
-            assert plain.match(option) or option in reference, (command, option)
+    for program, commands in PROGRAMS:
+        for command in commands:
+            for option in options_of(program, command) - {"--help"}:
+                assert plain.match(option) or option in reference, (command, option)
+
+
+def test_the_page_on_labelling_names_every_key():
+    page = (ROOT / "docs" / "labelling.md").read_text()
+    keys = (ROOT / "annotate" / "static" / "keys.js").read_text()
+    shown = re.findall(r'^    one\("([^"]+)", "([^"]+)"', keys, re.MULTILINE)
+    assert len(shown) > 20
+    for key, says in shown:
+        assert f"| {key} | {says} |" in page
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

@@ -1,8 +1,12 @@
-"""Labels as pictures: masks, painted photographs, and the layouts in which data sets have them."""
+"""Labels as pictures: masks, photos with the line painted on, and the layout of CH1.
+
+``names.csv`` in a painted export says which photo each number stands for.
+"""
 
 from __future__ import annotations
 
 import csv
+import re
 import shutil
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -10,15 +14,15 @@ from pathlib import Path
 import numpy as np
 
 from annotate.formats.common import Entry, FormatError, Imported, check_width
-from skyline_viz.arrays import U8
-from skyline_viz.photo import read_photo, write_photo
-from skyline_viz.skyline import SkylineError
+from skyline_viz.photo import PHOTO_SUFFIXES, PhotoError, photo_size, read_photo, write_photo
+from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.truths import read_truth
 
 CH1_PART = "cvg"
-"""The part of the CH1 data set whose name is used."""
+"""The folder of CH1 in which an export lies; `skyline_viz.open_dataset` knows it."""
 
-_NAMES = "names.csv"
+_INDEX, _HEADER = "names.csv", ["file", "photo"]
+_ADDED = re.compile(r"([-_]mask|_edge)$", re.IGNORECASE)
 
 
 def write_masks(entries: list[Entry], folder: Path) -> None:
@@ -28,82 +32,114 @@ def write_masks(entries: list[Entry], folder: Path) -> None:
 
 
 def read_masks(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
-    """Read a mask, those of a folder, or those of the folder ``masks`` in it."""
-    if source.is_file():
-        return _read([source], photos, names)
+    """Read the masks of a folder, or one of them."""
     folder = source / "masks" if (source / "masks").is_dir() else source
-    return _read(_files(folder), photos, names)
+    return _read(_pictures(folder), photos, names)
 
 
 def write_ch1(entries: list[Entry], folder: Path) -> None:
-    """Write photos and masks as the CH1 data set has them."""
-    images = folder / CH1_PART / "images"
-    images.mkdir(parents=True)
+    """Write copies of the photos, and masks beside them."""
+    part = folder / CH1_PART
     for entry in entries:
-        shutil.copyfile(entry.photo, images / f"{entry.stem}{entry.photo.suffix}")
-        truth = folder / CH1_PART / "ground_truth" / f"{entry.stem}-mask.png"
-        write_photo(truth, _mask(entry))
+        write_photo(part / "ground_truth" / f"{entry.stem}-mask.png", _mask(entry))
+        (part / "images").mkdir(exist_ok=True)
+        suffix = entry.photo.suffix.lower()
+        shutil.copyfile(entry.photo, part / "images" / f"{entry.stem}{suffix}")
 
 
 def read_ch1(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
-    """Read the masks of a data set in the CH1 layout."""
-    truths = [part / "ground_truth" for part in sorted(source.iterdir())]
-    files = [file for folder in truths if folder.is_dir() for file in _files(folder)]
-    return _read(files, photos, names, added="-mask")
+    """Read the masks of all parts of CH1, or one of them."""
+    if source.is_file():
+        return _read([source], photos, names)
+    found = [one for place in sorted(source.glob("*/ground_truth")) for one in _pictures(place)]
+    return _read(found, photos, names)
 
 
 def write_painted(entries: list[Entry], folder: Path) -> None:
-    """Write photos and painted photos as the Web data set has them, and which number is which."""
-    with (folder / _NAMES).open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["number", "photo"])
-        for number, entry in enumerate(entries, 1):
-            pixels = read_photo(entry.photo)
-            write_photo(folder / "images" / f"R_GImag{number:04d}.bmp", pixels)
-            write_photo(_painted(folder, number), entry.skyline.to_painted(pixels))
-            writer.writerow([number, entry.stem])
+    """Write the photos and their painted copies, numbered, and which photo each number is.
+
+    Raises:
+        FormatError: A photo cannot be read, or its line cannot be painted.
+    """
+    lines = [_HEADER]
+    for number, entry in enumerate(entries, 1):
+        try:
+            photo = read_photo(entry.photo)
+            if not entry.skyline.visible.any():
+                raise SkylineError("no column of its line is visible")
+            painted = entry.skyline.to_painted(photo, "red")
+        except PhotoError as error:
+            raise FormatError(str(error)) from error
+        except SkylineError as error:
+            raise FormatError(f"{entry.label.name} cannot be painted: {error}.") from error
+        truth = f"GT_GoogleImage{number:03}_Edge.bmp"
+        write_photo(folder / "images" / f"R_GImag{number:04}.bmp", photo)
+        write_photo(folder / "ground_truth" / truth, painted)
+        lines.append([truth, entry.label.name])
+    with (folder / _INDEX).open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n", quoting=csv.QUOTE_ALL).writerows(lines)
 
 
 def read_painted(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
-    """Read painted photos that `write_painted` wrote."""
-    try:
-        with (source / _NAMES).open(newline="", encoding="utf-8") as file:
-            numbered = [row for row in csv.reader(file) if row][1:]
-    except (OSError, ValueError, csv.Error) as error:
-        told = source / _NAMES
-        raise FormatError(f"{told} says which photo is which, and cannot be read.") from error
-    known = {
-        _painted(source, int(row[0])): names[row[1]]
-        for row in numbered
-        if len(row) == 2 and row[0].isdecimal() and row[1] in names
-    }
-    return _read(known, photos, {file.stem: name for file, name in known.items()})
+    """Read painted photos; their names are looked up in ``names.csv`` where there is one."""
+    folder = source.parent if source.is_file() else source
+    index = _read_index(folder if (folder / _INDEX).is_file() else folder.parent)
+    if source.is_file():
+        files = [source]
+    else:
+        files = _pictures(folder / "ground_truth" if (folder / "ground_truth").is_dir() else folder)
+    known = {file: names[photo] for file, photo in index.items() if photo in names}
+    if index:
+        files = [file for file in files if file.name in known]
+        return _read(
+            files, photos, {_ADDED.sub("", Path(file).stem): known[file] for file in known}
+        )
+    return _read(files, photos, names)
 
 
-def _painted(folder: Path, number: int) -> Path:
-    return folder / "ground_truth" / f"GT_GoogleImage{number:03d}_Edge.bmp"
-
-
-def _mask(entry: Entry) -> U8:
-    terrain = ~entry.skyline.to_mask(entry.label.height)
-    return terrain.astype(np.uint8) * np.uint8(255)
-
-
-def _files(folder: Path) -> list[Path]:
-    return sorted(file for file in folder.glob("*.png") if not file.name.startswith("."))
-
-
-def _read(
-    files: Iterable[Path], photos: Path, names: Mapping[str, str], added: str = ""
-) -> list[Imported]:
+def _read(files: Iterable[Path], photos: Path, names: Mapping[str, str]) -> list[Imported]:
+    """Labels of the files that are about a photo; another size than the photo's is an error."""
     found = []
     for file in files:
-        stem = file.stem.removesuffix(added)
-        if stem not in names:
+        name = names.get(file.stem) or names.get(_ADDED.sub("", file.stem))
+        if name is None:
             continue
         try:
-            truth = read_truth(file)
-        except SkylineError as error:
+            size, wanted = photo_size(file), photo_size(photos / name)
+            if size != wanted:
+                raise FormatError(
+                    f"{file} has {size[1]}x{size[0]} pixels, and {name} {wanted[1]}x{wanted[0]}."
+                )
+            skyline: Skyline = read_truth(file)
+        except (PhotoError, SkylineError) as error:
             raise FormatError(str(error)) from error
-        found.append(Imported(names[stem], check_width(names[stem], truth, photos)))
+        found.append(Imported(name, check_width(name, skyline, photos)))
     return found
+
+
+def _read_index(folder: Path) -> dict[str, str]:
+    """Photo of each painted file; empty where there is no index."""
+    path = folder / _INDEX
+    if not path.is_file():
+        return {}
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            lines = list(csv.reader(file))
+    except (OSError, ValueError, csv.Error) as error:
+        raise FormatError(f"{path} cannot be read: {error}.") from error
+    if not lines or lines[0] != _HEADER or any(len(line) != 2 for line in lines):
+        raise FormatError(f"{path} is not a list of file and photo.")
+    return dict(line for line in lines[1:])
+
+
+def _mask(entry: Entry) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
+    sky = entry.skyline.to_mask(entry.label.height)
+    return np.where(sky, 0, 255).astype(np.uint8)
+
+
+def _pictures(folder: Path) -> list[Path]:
+    return sorted(
+        file
+        for file in (folder.iterdir() if folder.is_dir() else [folder])
+        if file.suffix.lower() in PHOTO_SUFFIXES and not file.name.startswith(".")
+    )

@@ -15,9 +15,10 @@ const FORMATS = {
 
 const find = (id) => document.getElementById(id);
 
-/** Close a dialog by clicking beside it. */
+/** Close a dialog by clicking beside it; then the keys belong to the photo again. */
 export function prepare() {
   for (const dialog of document.querySelectorAll("dialog")) {
+    dialog.addEventListener("close", () => find("lines").focus({ preventScroll: true }));
     dialog.addEventListener("click", (event) => {
       if (event.target === dialog) dialog.close();
     });

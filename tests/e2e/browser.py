@@ -34,6 +34,7 @@ class Page:
         self.page.on("console", self._heard)
         self.open()
         self.page.locator("#first-dialog button").click()
+        self.page.locator("#first-dialog").wait_for(state="hidden")
 
     def _heard(self, message):
         if message.type == "error" and "Failed to load resource" not in message.text:

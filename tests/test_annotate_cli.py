@@ -1,0 +1,209 @@
+"""``skyline-annotate``: what its commands say and do."""
+
+import re
+
+import numpy as np
+import pytest
+
+from annotate.agreement import paired
+from annotate.cli import main
+from annotate.commands.open import propose_all
+from annotate.database import NAME
+from annotate.operations import SetStatus, Straight
+from annotate.store import Store
+from skyline_viz import __version__
+from skyline_viz.datasets import open_dataset
+from skyline_viz.photo import read_photo
+from skyline_viz.skyline import Skyline
+from tests.labelling import workbench, write_hills
+
+
+def run(*words):
+    return main([str(word) for word in words])
+
+
+def label(folder, annotator="ann", number=1, row=None, photos=2):
+    """Accept the proposals of some photos; with `row`, after drawing a level line there."""
+    bench = workbench(folder, annotator, number=number)
+    for photo in list(bench.photos)[:photos]:
+        session = bench.session(photo)
+        if row is not None:
+            session.apply(Straight(column=0, row=row, to_column=69, to_row=row), -1)
+        session.apply(SetStatus(status="accepted"), -1)
+    bench.close()
+    return folder
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return write_hills(tmp_path / "alps")
+
+
+def test_help_and_version(capsys):
+    assert run("--version") == 0
+    assert capsys.readouterr().out == f"skyline-annotate {__version__}\n"
+    for words in ([], ["open"], ["export"], ["import"], ["status"], ["agreement"], ["backup"]):
+        assert run(*words, "--help") == 0
+        assert "usage: skyline-annotate" in capsys.readouterr().out
+
+
+def test_status_is_a_table(folder, capsys):
+    label(folder)
+    assert run("status", folder) == 0
+    out = capsys.readouterr().out
+    assert "3 photos" in out
+    row = next(line for line in out.splitlines() if line.startswith("ann "))
+    assert re.split(r"\s{2,}", row.strip())[:5] == ["ann", "1", "1", "0", "2"]
+
+
+@pytest.mark.parametrize(
+    "kind", ["mask", "painted", "ch1", "csv", "json", "coco", "labelme", "cvat"]
+)
+def test_labels_leave_and_come_back(folder, kind, tmp_path, capsys):
+    label(folder)
+    out = tmp_path / "out"
+    assert run("export", folder, "--format", kind, "--out", out) == 0
+    said = capsys.readouterr().out
+    assert f"2 labels in {out}" in said
+    assert "Not in it: 1 photo of the folder." in said
+    again = write_hills(tmp_path / "again")
+    words = ["import", again, out, "--annotator", "eve", "--status", "accepted"]
+    assert run(*words) == 0
+    assert "2 labels imported" in capsys.readouterr().out
+    lines = []
+    for place, who in ((folder, "ann"), (again, "eve")):
+        store = Store(place)
+        lines.append([one for one in store.labels(who) if one.status == "accepted"])
+        store.close()
+    assert [one.skyline for one in lines[0]] == [one.skyline for one in lines[1]]
+    assert run(*words) == 1
+    assert "has been labelled by eve in pass 1 already" in capsys.readouterr().err
+
+
+def test_imported_labels_can_be_edited_on(folder, tmp_path):
+    label(folder, row=11)
+    assert run("export", folder, "--format", "json", "--out", tmp_path / "out") == 0
+    again = write_hills(tmp_path / "again")
+    assert run("import", again, tmp_path / "out" / "labels.json") == 0
+    bench = workbench(again)
+    session = bench.session(1)
+    assert session.state.status == "accepted"
+    assert set(session.wire.skyline.rows) == {11}
+    session.undo(-1)
+    assert len(set(session.wire.skyline.rows)) > 1
+    bench.close()
+
+
+def test_an_export_is_a_data_set(folder, tmp_path):
+    label(folder)
+    assert run("export", folder, "--format", "ch1", "--out", tmp_path / "out") == 0
+    items = list(open_dataset(tmp_path / "out"))
+    assert len(items) == 2
+    for item in items:
+        np.testing.assert_array_equal(item.photo(), read_photo(folder / item.photo_path.name))
+        assert isinstance(item.truth(), Skyline)
+
+
+def test_agreement_of_two_annotators(folder, tmp_path, capsys):
+    label(folder, "ann", row=10)
+    label(folder, "bob", row=13)
+    picture = tmp_path / "apart.png"
+    assert run("agreement", folder, "--picture", picture) == 0
+    out = capsys.readouterr().out
+    assert "ann and bob, 2 photos" in out
+    assert "mean difference   3.00 px a column" in out
+    assert "worst difference  3 px" in out
+    assert "within 2 px       0.0% of 140 columns" in out
+    assert "within 5 px       100.0% of 140 columns" in out
+    assert read_photo(picture).shape[1] == 960
+
+
+def test_agreement_of_two_passes(folder, capsys):
+    label(folder, "ann", 1, row=10)
+    label(folder, "ann", 2, row=10)
+    label(folder, "bob", 1, row=30)
+    assert run("agreement", folder) == 2
+    assert "which two passes? There are ann:1, ann:2, bob:1" in capsys.readouterr().err
+    assert run("agreement", folder, "--first", "ann", "--second", "ann:2") == 0
+    assert "mean difference   0.00 px" in capsys.readouterr().out
+    assert run("agreement", folder, "--first", "ann", "--second", "eve") == 2
+
+
+def test_only_columns_that_both_see_are_compared(folder):
+    label(folder, "ann", row=10)
+    label(folder, "bob", row=20)
+    store = Store(folder)
+    first, second = list(store.labels("ann")), list(store.labels("bob"))
+    store.close()
+    visible = np.arange(70) < 7
+    object.__setattr__(first[0], "skyline", Skyline(rows=first[0].skyline.rows, visible=visible))
+    assert [len(pair.differences) for pair in paired(first[:1], second)] == [7]
+
+
+def test_a_backup_is_one_file(folder, tmp_path, capsys):
+    label(folder)
+    assert run("backup", folder, "--out", tmp_path / "kept.sqlite") == 0
+    assert capsys.readouterr().out.strip() == str(tmp_path / "kept.sqlite")
+    again = write_hills(tmp_path / "again")
+    (tmp_path / "kept.sqlite").rename(again / NAME)
+    assert run("status", again) == 0
+    assert run("backup", folder, "--out", again / NAME) == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["open", "nowhere"], "nowhere does not exist."),
+        (["open", "empty"], "empty holds no photograph."),
+        (["open", "alps", "--blind", "2"], "--blind is a share from 0 to 1, not 2.0."),
+        (["open", "alps", "--pass-number", "0"], "there is no pass 0."),
+        (["open", "alps", "--port", "99999"], "there is no port 99999."),
+        (["open", "alps", "--host", "192.0.2.1"], "cannot listen on 192.0.2.1"),
+        (["open", "alps", "--bank", "nothing.npz"], "nothing.npz does not exist."),
+        (["status", "empty"], "empty has no labels yet"),
+        (["export", "empty"], "empty has no labels yet"),
+        (["export", "done", "--out", "alps"], "alps exists already"),
+        (["export", "done", "--annotator", "eve"], "there is no such pass; there are ann 1."),
+        (["import", "alps", "nowhere"], "nowhere does not exist."),
+        (["import", "alps", "empty"], "empty is of no known format"),
+        (["import", "empty", "alps"], "empty holds no photograph."),
+        (["agreement", "done"], "which two passes? There are ann:1"),
+        (["agreement", "done", "--picture", "x.gif"], "should end in .png or .jpg."),
+        (["backup", "empty"], "empty has no labels to back up."),
+    ],
+)
+def test_what_is_wrong_is_one_sentence(words, sentence, folder, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty").mkdir()
+    label(write_hills(tmp_path / "done"), photos=1)
+    assert run(*words) in (1, 2)
+    err = capsys.readouterr().err
+    assert sentence in err
+    assert err.count("\n") == 1
+    assert err.startswith("skyline-annotate: ")
+
+
+def test_the_least_certain_photo_comes_first(folder):
+    bench = workbench(folder, order="margin")
+    propose_all(bench)
+    margins = [card.margin for card in bench.cards()]
+    assert None not in margins
+    assert margins == sorted(margins)
+    bench.close()
+
+
+def test_random_orders_and_blind_shares_are_seeded(tmp_path):
+    folder = write_hills(tmp_path, count=12)
+
+    def order(seed):
+        bench = workbench(folder, order="random", blind=0.5, seed=seed)
+        names = [card.photo.name for card in bench.cards()]
+        blind = {photo for photo in bench.photos if bench.store.is_blind(bench.label(photo))}
+        bench.close()
+        return names, blind
+
+    (first, blind), (second, _) = order(0), order(1)
+    assert sorted(first) == sorted(second)
+    assert first != second
+    assert order(0)[0] == first
+    assert 2 <= len(blind) <= 10
