@@ -155,7 +155,7 @@ class LiveWire:
             EditError: Outside the photo.
             PathError: Nothing leads there past what is forbidden.
         """
-        return self._change(lambda edits: edits.anchor(column, row))
+        return self._change(lambda edits: edits.anchor(int(column), int(row)))
 
     def straight(self, column: int, row: int, to_column: int, to_row: int) -> Skyline:
         """Let the line be straight between two pixels, see `Edits.straight`."""
@@ -187,7 +187,7 @@ class LiveWire:
             EditError: Outside the photo, or there is no anchor in column `lifted`.
             PathError: Nothing leads there past what is forbidden.
         """
-        return self._line(self._through(column, row, lifted))
+        return self._line(self._through(int(column), int(row), lifted))
 
     def alternatives(self, column: int, most: int = 4) -> list[Alternative]:
         """Other lines through a column: local minima of its min-marginals, the cheapest first."""

@@ -1,16 +1,17 @@
 """The labelling server through real requests: what it does, and whom it refuses."""
 
 import io
-import sqlite3
 import zipfile
 
 import cv2
 import numpy as np
 import pytest
 
+from annotate.database import StoreError
+from annotate.operations import Draw, SetAnchor, SetTag
 from annotate.store import Store
 from skyline_viz.photo import read_photo
-from tests.labelling import TOKEN, hills, served, write_hills
+from tests.labelling import TOKEN, hills, served, workbench, write_hills
 
 ROUTES = [
     ("GET", "/"),
@@ -201,20 +202,28 @@ def test_a_photo_that_vanishes_is_a_sentence_and_loses_nothing(tmp_path):
         assert client.get("/api/photos/1").json()["anchors"] == [[20, 40]]
 
 
-def test_a_full_disk_is_a_sentence_and_changes_nothing(tmp_path, monkeypatch):
-    with served(write_hills(tmp_path)) as client:
-        before = client.get("/api/photos/1").json()
-
-        def full(*_):
-            raise sqlite3.OperationalError("database or disk is full")
-
-        with monkeypatch.context() as patch:
-            patch.setattr("annotate.store._revision", full)
-            said = do(client, 1, {"kind": "anchor", "column": 20, "row": 40}, 0)
-        assert said.status_code == 507
-        assert "disk is full" in said.json()["detail"]
-        assert client.get("/api/photos/1").json() == before
-        assert do(client, 1, {"kind": "anchor", "column": 20, "row": 40}, 0).status_code == 200
+def test_a_full_disk_is_a_sentence_and_changes_nothing(tmp_path):
+    bench = workbench(write_hills(tmp_path, count=1))
+    session = bench.session(1)
+    before = session.wire.skyline
+    pages = bench.store._connection.execute("PRAGMA page_count").fetchone()[0]
+    bench.store._connection.execute(f"PRAGMA max_page_count = {pages}")
+    tag = "x" * 80
+    with pytest.raises(StoreError, match=r"the disk is full, so nothing was added to .*sqlite\.$"):
+        for number in range(200):
+            kept = bench.store.state(session.label)
+            session.apply(SetTag(tag=f"{number}{tag}"[:80], on=True), -1)
+    with pytest.raises(StoreError, match="disk is full"):
+        for column in range(70):
+            kept, before = bench.store.state(session.label), session.wire.skyline
+            session.apply(Draw(first=0, rows=[column % 40] * 70), -1)
+    assert session.wire.skyline == before
+    again = bench.store.state(session.label)
+    assert (again.revision, again.tags, again.edits) == (kept.revision, kept.tags, kept.edits)
+    bench.store._connection.execute("PRAGMA max_page_count = 100000")
+    session.apply(SetAnchor(column=20, row=40), -1)
+    assert session.wire.skyline.rows[20] == 40
+    bench.close()
 
 
 def test_a_moved_folder_finds_its_labels(tmp_path):
