@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import sqlite3
 import threading
 from collections.abc import Iterable, Iterator
@@ -23,13 +22,14 @@ import numpy as np
 
 from annotate.database import NAME, connect, sentences
 from annotate.edits import Edits
+from annotate.folder import photos_below
 from annotate.kept_detectors import pack, unpack
 from annotate.labels import Label
 from annotate.lines import Line
 from annotate.log import cursor, summary
 from annotate.operations import Edit
 from skyline_viz.detector import Detector
-from skyline_viz.photo import PhotoError, find_photos, photo_size
+from skyline_viz.photo import PhotoError, photo_size
 
 
 class StaleError(ValueError):
@@ -122,7 +122,7 @@ class Store:
             }
         found: dict[str, tuple[str, int, int, int, int]] = {}
         problems = []
-        for path in _photos_below(self.folder):
+        for path in photos_below(self.folder):
             name = path.relative_to(self.folder).as_posix()
             try:
                 name.encode()
@@ -393,13 +393,6 @@ def _keep_detector(database: sqlite3.Connection, detector: Detector) -> int:
     )
     row = database.execute("SELECT id FROM detectors WHERE digest = ?", (kept.digest,)).fetchone()
     return int(row[0])
-
-
-def _photos_below(folder: Path) -> Iterator[Path]:
-    """Photos of a folder and of the folders in it, hidden ones left out."""
-    for place, folders, _ in os.walk(folder):
-        folders[:] = sorted(name for name in folders if not name.startswith("."))
-        yield from find_photos(place)
 
 
 def _digest(path: Path) -> str:

@@ -109,7 +109,7 @@ class Import:
                 number = self.pass_number or (told.number if told else 1)
                 label = store.begin(photos[one.name].id, who, number)
                 try:
-                    store.insert(label, *log_of(one, self.status))
+                    store.insert(label, *log_of(one, photos[one.name].height, self.status))
                 except StaleError:
                     skipped += 1
                     say(f"{one.name} has been labelled by {who} in pass {number} already.", PROGRAM)
@@ -145,15 +145,19 @@ class Backup:
         return GOOD
 
 
-def log_of(one: Imported, status: str) -> tuple[list[tuple[float, str, dict[str, Any]]], Any]:
+def log_of(
+    one: Imported, height: int, status: str
+) -> tuple[list[tuple[float, str, dict[str, Any]]], Any]:
     """The log of an imported label, and its line.
 
-    A label that comes with its log keeps it. Any other counts as drawn by hand.
+    A label that comes with its log keeps it. Any other counts as drawn by hand; in a column that
+    is all sky the line cannot be seen.
     """
     import numpy as np  # noqa: PLC0415
 
     from annotate.labels import ORIGINS  # noqa: PLC0415
     from annotate.lines import Line  # noqa: PLC0415
+    from skyline_viz.skyline import Skyline  # noqa: PLC0415
 
     if one.label is not None and one.label.operations:
         log = []
@@ -162,13 +166,14 @@ def log_of(one: Imported, status: str) -> tuple[list[tuple[float, str, dict[str,
             log.append((float(operation.get("at", 0.0)), str(operation["kind"]), body))
         return log, Line(one.skyline, one.label.origin)
     now = time.time()
-    rows = one.skyline.rows.astype(int).tolist()
-    log = [(now, "drawn", {"first": 0, "rows": rows})]
-    seen = np.concatenate([[True], one.skyline.visible, [True]])
+    inside = np.minimum(one.skyline.rows, height - 1)
+    skyline = Skyline(rows=inside, visible=one.skyline.visible & (one.skyline.rows < height))
+    log = [(now, "drawn", {"first": 0, "rows": inside.astype(int).tolist()})]
+    seen = np.concatenate([[True], skyline.visible, [True]])
     runs = np.flatnonzero(seen[1:] != seen[:-1]).reshape(-1, 2).tolist()
     for first, stop in runs:
         log.append((now, "hidden", {"first": first, "last": stop - 1, "hidden": True}))
     log += [(now, "tag", {"tag": tag, "on": True}) for tag in one.tags]
     log.append((now, "status", {"status": one.label.status if one.label else status}))
-    origin = np.full(one.skyline.width, ORIGINS.index("drawn"), np.uint8)
-    return log, Line(one.skyline, origin)
+    origin = np.full(skyline.width, ORIGINS.index("drawn"), np.uint8)
+    return log, Line(skyline, origin)

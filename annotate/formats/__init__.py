@@ -38,6 +38,7 @@ from annotate.formats.common import (
     Writer,
     entries_of,
     names_of,
+    one_each,
 )
 from annotate.labels import Label
 
@@ -84,6 +85,9 @@ def export_labels(labels: Iterable[Label], photos: Path, out: Path, format: str)
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
         raise FormatError(f"{out} exists already; name a folder that does not.")
     entries, notes = entries_of(labels, photos)
+    if format != "json":
+        entries, more = one_each(entries)
+        notes += more
     if not entries:
         reasons = f" {notes[0]}" if notes else ""
         raise FormatError(f"there is nothing to export: no photo has been accepted.{reasons}")
@@ -141,7 +145,7 @@ def import_labels(
     chosen = format or _format_of(source)
     if chosen not in FORMATS:
         raise FormatError(f"{chosen!r} is no format; there are {', '.join(FORMATS)}.")
-    found = FORMATS[chosen][1](source, photos, names_of(names))
+    found = FORMATS[chosen][1](source, photos, names_of(names, photos))
     if not found:
         raise FormatError(f"{source} holds no label of a photo in {photos}.")
     return found

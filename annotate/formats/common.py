@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -11,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from annotate.folder import photos_below
 from annotate.labels import Label
 from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.skyline import Skyline, SkylineError, fill
@@ -58,14 +60,14 @@ Reader: TypeAlias = Callable[[Path, Path, Mapping[str, str]], list[Imported]]
 def entries_of(labels: Iterable[Label], photos: Path) -> tuple[list[Entry], list[str]]:
     """Labels that can be written, and a sentence for each that cannot."""
     entries, notes = [], []
-    labels = list(labels)
-    stems = safe_stems(label.name for label in labels)
+    stems = safe_stems(_names_below(photos))
     for label in labels:
         photo = photos / label.name
-        if label.skyline is None:
+        if label.name not in stems or not photo.is_file():
+            shown = label.name if label.name.isprintable() else repr(label.name)
+            notes.append(f"{shown} is not in the folder.")
+        elif label.skyline is None:
             notes.append(f"{label.name} has no line.")
-        elif not photo.is_file():
-            notes.append(f"{label.name} is not in the folder any more.")
         elif _size(photo) != (label.height, label.width):
             notes.append(f"{label.name} is another photo now.")
         else:
@@ -73,24 +75,37 @@ def entries_of(labels: Iterable[Label], photos: Path) -> tuple[list[Entry], list
     return entries, notes
 
 
+def one_each(entries: list[Entry]) -> tuple[list[Entry], list[str]]:
+    """The first label of each photo, and a sentence for each other one."""
+    first: dict[str, Entry] = {}
+    notes = []
+    for entry in entries:
+        kept = first.setdefault(entry.label.name, entry).label
+        if kept is not entry.label:
+            notes.append(
+                f"{kept.name} has several labels, and only that of {kept.annotator}, "
+                f"pass {kept.number}, is in it."
+            )
+    return list(first.values()), notes
+
+
 def safe_stems(names: Iterable[str]) -> dict[str, str]:
     """A file name without ending for each name: no folders, no surprises, no two alike.
 
-    >>> safe_stems(["a/b.jpg", "../x.png", "x.jpg"])
-    {'a/b.jpg': 'a__b', '../x.png': 'x', 'x.jpg': 'x-2'}
+    Where photos share a name but for its ending, the ending is part of it.
+
+    >>> safe_stems(["a/b.jpg", "../x.png", "x.jpg", "y.jpg"])
+    {'../x.png': 'x.png', 'a/b.jpg': 'a__b', 'x.jpg': 'x.jpg', 'y.jpg': 'y'}
     """
+    names = sorted(known := set(names))
+    shared = Counter(_plain(name, ending=False).casefold() for name in names)
     stems: dict[str, str] = {}
     taken: set[str] = set()
     for name in names:
-        if name in stems:
-            continue
-        parts = [
-            part for part in PurePosixPath(name).with_suffix("").parts if part not in ("..", "/")
-        ]
-        plain = re.sub(r"[^\w.\- ()+]", "_", "__".join(parts)).lstrip(". ")
-        plain = plain.encode("utf-8", "replace")[:120].decode("utf-8", "ignore") or "photo"
+        plain = _plain(name, ending=False)
+        plain = _plain(name, ending=True) if shared[plain.casefold()] > 1 else plain
         stem, number = plain, 1
-        while stem.casefold() in taken:
+        while stem.casefold() in taken or (stem != name and stem in known):
             number += 1
             stem = f"{plain}-{number}"
         taken.add(stem.casefold())
@@ -98,34 +113,52 @@ def safe_stems(names: Iterable[str]) -> dict[str, str]:
     return stems
 
 
-def names_of(names: Iterable[str]) -> dict[str, str]:
-    """The photo of each safe name, and of each name as it is."""
+def names_of(names: Iterable[str], photos: Path) -> dict[str, str]:
+    """The photo of each safe name, and of each name as it is, where that is clear."""
     names = list(names)
-    found = {stem: name for name, stem in safe_stems(names).items()}
+    stems = safe_stems({*names, *_names_below(photos)})
+    found = {stems[name]: name for name in names}
+    bare = Counter(PurePosixPath(name).name for name in names)
     for name in names:
-        found.setdefault(PurePosixPath(name).name, name)
-        found.setdefault(PurePosixPath(name).stem, name)
+        if bare[PurePosixPath(name).name] == 1:
+            found.setdefault(PurePosixPath(name).name, name)
     return {**found, **{name: name for name in names}}
 
 
-def check_width(name: str, skyline: Skyline, photos: Path) -> Skyline:
+def check_size(name: str, skyline: Skyline, photos: Path, height: int | None = None) -> Skyline:
     """Return a line that fits its photo.
 
+    Args:
+        name: The photo.
+        skyline: The line.
+        photos: The folder of the photos.
+        height: Rows of the photo that the line was made for, where that is known.
+
     Raises:
-        FormatError: The widths differ, or a row lies outside the photo.
+        FormatError: The sizes differ, or a row lies outside the photo.
     """
-    try:
-        height, width = photo_size(photos / name)
-    except PhotoError as error:
-        raise FormatError(str(error)) from error
+    rows, width = size_of(name, photos)
     if skyline.width != width:
         raise FormatError(f"{name} has {width} columns, its label {skyline.width}.")
+    if height is not None and height != rows:
+        raise FormatError(f"{name} has {rows} rows, its label is for {height}.")
     try:
-        rows = skyline.pixel_rows(height)
+        whole = skyline.pixel_rows(rows)
     except SkylineError as error:
         raise FormatError(f"{name}: {error}.") from error
-    inside = rows.clip(0, height - 1)
-    return Skyline(rows=inside.astype(np.float32), visible=skyline.visible)
+    return Skyline(rows=whole.astype(np.float32), visible=skyline.visible)
+
+
+def size_of(name: str, photos: Path) -> tuple[int, int]:
+    """Height and width of a photo.
+
+    Raises:
+        FormatError: It cannot be read.
+    """
+    try:
+        return photo_size(photos / name)
+    except PhotoError as error:
+        raise FormatError(str(error)) from error
 
 
 def runs_of_points(skyline: Skyline) -> list[npt.NDArray[np.float64]]:
@@ -155,6 +188,19 @@ def from_points(runs: Iterable[npt.NDArray[np.float64]], width: int) -> Skyline:
     if not visible.any():
         raise FormatError("no point of the line lies inside the photo.")
     return Skyline(rows=fill(rows, visible), visible=visible)
+
+
+def _names_below(photos: Path) -> list[str]:
+    return [path.relative_to(photos).as_posix() for path in photos_below(photos)]
+
+
+def _plain(name: str, *, ending: bool) -> str:
+    """A name with nothing in it that a file system or a shell could take for something else."""
+    path = PurePosixPath(name)
+    whole = path if ending else path.with_suffix("")
+    parts = [part for part in whole.parts if part not in ("..", "/")]
+    plain = re.sub(r"[^\w.\- ()+]", "_", "__".join(parts)).lstrip(". ")
+    return plain.encode("utf-8", "replace")[:120].decode("utf-8", "ignore") or "photo"
 
 
 def _size(photo: Path) -> tuple[int, int] | None:

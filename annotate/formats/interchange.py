@@ -15,9 +15,10 @@ from annotate.formats.common import (
     Entry,
     FormatError,
     Imported,
-    check_width,
+    check_size,
     from_points,
     runs_of_points,
+    size_of,
 )
 from annotate.formats.tables import load_json
 from skyline_viz.files import write_text
@@ -76,16 +77,18 @@ def read_coco(source: Path, photos: Path, names: Mapping[str, str]) -> list[Impo
             if categories[one["category_id"]] != _SKY or image["file_name"] not in names:
                 continue
             height, width = int(image["height"]), int(image["width"])
-            if not (0 < height <= 10**5 and 0 < width <= 10**5):
-                raise ValueError(f"a photo of {width}x{height} pixels")
+            name = names[image["file_name"]]
+            rows_there, columns_there = size_of(name, photos)
+            if (height, width) != (rows_there, columns_there):
+                there = f"{columns_there}x{rows_there}"
+                raise FormatError(f"{name} has {there} pixels, its label {width}x{height}.")
             told = one["segmentation"]
             rows = (
                 _from_counts(told["counts"], height, width)
                 if isinstance(told, dict)
                 else _from_polygons(told, height, width)
             )
-            name = names[image["file_name"]]
-            found.append(Imported(name, check_width(name, Skyline(rows=rows), photos)))
+            found.append(Imported(name, check_size(name, Skyline(rows=rows), photos)))
     except FormatError:
         raise
     except (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError) as error:
@@ -141,7 +144,8 @@ def read_labelme(source: Path, photos: Path, names: Mapping[str, str]) -> list[I
             raise FormatError(f"{file}: {error}") from error
         except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
             raise FormatError(f"{file} is not sound LabelMe: {error}.") from error
-        found.append(Imported(name, check_width(name, skyline, photos), tags))
+        height = _side(document.get("imageHeight", 0) or size_of(name, photos)[0])
+        found.append(Imported(name, check_size(name, skyline, photos, height), tags))
     return found
 
 
@@ -186,12 +190,13 @@ def read_cvat(source: Path, photos: Path, names: Mapping[str, str]) -> list[Impo
         try:
             pairs = [[p.split(",") for p in one.get("points", "").split(";")] for one in lines]
             skyline = from_points(map(_points, pairs), _side(image.get("width")))
+            height = _side(image.get("height", size_of(name, photos)[0]))
         except FormatError as error:
             raise FormatError(f"{file}: {error}") from error
         except (TypeError, ValueError) as error:
             raise FormatError(f"{file}: the line of {name} is not sound: {error}.") from error
         tags = tuple(one.get("label", "") for one in image.iter("tag"))
-        found.append(Imported(name, check_width(name, skyline, photos), tags))
+        found.append(Imported(name, check_size(name, skyline, photos, height), tags))
     return found
 
 

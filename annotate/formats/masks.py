@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from annotate.formats.common import Entry, FormatError, Imported, check_width
+from annotate.formats.common import Entry, FormatError, Imported, check_size
 from skyline_viz.photo import PHOTO_SUFFIXES, PhotoError, photo_size, read_photo, write_photo
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.truths import read_truth
@@ -113,7 +113,7 @@ def _read(files: Iterable[Path], photos: Path, names: Mapping[str, str]) -> list
             skyline: Skyline = read_truth(file)
         except (PhotoError, SkylineError) as error:
             raise FormatError(str(error)) from error
-        found.append(Imported(name, check_width(name, skyline, photos)))
+        found.append(Imported(name, check_size(name, skyline, photos)))
     return found
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from annotate.formats.common import Entry, FormatError, Imported, check_width
+from annotate.formats.common import Entry, FormatError, Imported, check_size
 from annotate.labels import ORIGINS, Label
 from skyline_viz.files import write_text
 from skyline_viz.skyline import Skyline, SkylineError
@@ -34,7 +34,7 @@ def read_csv(source: Path, photos: Path, names: Mapping[str, str]) -> list[Impor
             except SkylineError as error:
                 raise FormatError(str(error)) from error
             name = names[file.stem]
-            found.append(Imported(name, check_width(name, skyline, photos)))
+            found.append(Imported(name, check_size(name, skyline, photos)))
     return found
 
 
@@ -70,7 +70,7 @@ def read_json(source: Path, photos: Path, names: Mapping[str, str]) -> list[Impo
             raise FormatError(f"{file} holds a label that is not whole: {error}.") from error
         if label.name in names and label.skyline is not None:
             name = names[label.name]
-            line = check_width(name, label.skyline, photos)
+            line = check_size(name, label.skyline, photos, label.height)
             found.append(Imported(name, line, label.tags, label))
     return found
 

@@ -1,0 +1,16 @@
+"""The photos of a folder, and of the folders in it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from skyline_viz.photo import find_photos
+
+
+def photos_below(folder: Path) -> Iterator[Path]:
+    """Photos of a folder and of the folders in it, hidden ones left out."""
+    for place, folders, _ in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        yield from find_photos(place)

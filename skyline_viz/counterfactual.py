@@ -1,0 +1,196 @@
+"""What the path would be if one thing were different: the proof behind a diagnosis.
+
+A `Case` is a detection beside its truth. Each of its changes makes the truth line what it should
+have been in one respect (edges, scores, slopes), within a few columns, and the path is searched
+again there. Nothing else changes, so what comes back was due to that one thing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from skyline_viz.arrays import F64, Bool, Int
+from skyline_viz.cost import CLEAR_SKY_ROWS, normalised
+from skyline_viz.cost_split import edge_index
+from skyline_viz.detector import Detection
+from skyline_viz.metrics import column_errors
+from skyline_viz.path import cheapest_end, sweep, trace
+from skyline_viz.skyline import Skyline
+
+Change: TypeAlias = Literal["missed edge", "starved bin", "misjudged", "too steep"]
+"""What is made right: edges are put where the truth has none; scores of the truth's edges are
+raised, where their bins are starved, and where they are not; steps of the truth are allowed."""
+
+CHANGES: tuple[Change, ...] = ("missed edge", "starved bin", "misjudged", "too steep")
+
+REFERENCE_HEIGHT = 519
+"""Rows of the photos for which tolerances in pixels are meant; larger photos have larger ones."""
+
+_NEAR = 2.0  # rows within which an edge counts as one of the truth, at the reference height
+_LEAST_TYPICAL = 20  # columns that a typical value is the median of
+_LOW_SCORE = 0.75  # share of the typical score below which a score is low
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A detection and what it should have found."""
+
+    detection: Detection
+    truth: Skyline
+    tolerance: float
+    """Error up to which a column is right, in pixels."""
+
+    @cached_property
+    def errors(self) -> F64:
+        """``(W,)`` error of each column; NaN where the truth is not visible."""
+        return column_errors(self.detection.skyline, self.truth)
+
+    @cached_property
+    def right(self) -> Bool:
+        """``(W,)`` columns in which the path is right."""
+        return self.errors <= self.tolerance  # NaN is not
+
+    @cached_property
+    def rows(self) -> Int:
+        """``(W,)`` row of the truth, on the nearest edge pixel within a few rows, if any."""
+        rows, _ = self._on_edges
+        return rows
+
+    @cached_property
+    def pixels(self) -> Int:
+        """``(W,)`` the truth's edge pixel in each column, as an index; -1 where it has none."""
+        _, pixels = self._on_edges
+        return pixels
+
+    @cached_property
+    def strength(self) -> F64:
+        """``(n,)`` gradient strength of the edge pixels as the cost has it, in [0, 1]."""
+        config = self.detection.config
+        return normalised(self.detection.strength, config.strength_percentile).astype(np.float64)
+
+    @cached_property
+    def typical(self) -> tuple[float, float]:
+        """Score and strength of the truth's edges where the path is right; else of all of them."""
+        for chosen in (self.right & (self.pixels >= 0), self.pixels >= 0):
+            if chosen.sum() >= _LEAST_TYPICAL:
+                pixels = self.pixels[chosen]
+                scores = self.detection.scores[pixels]
+                return float(np.median(scores)), float(np.median(self.strength[pixels]))
+        return 0.8, 0.5
+
+    @cached_property
+    def steps(self) -> Int:
+        """``(W,)`` change of the truth's row from the column before."""
+        return np.abs(np.diff(self.rows, prepend=self.rows[:1])).astype(np.int32)
+
+    def columns_of(self, change: Change, first: int, last: int) -> Bool:
+        """``(W,)`` columns from `first` to `last` in which a change makes a difference."""
+        detection = self.detection
+        within: Bool = np.zeros(self.truth.width, np.bool_)
+        within[first : last + 1] = self.truth.visible[first : last + 1]
+        on_edge = self.pixels >= 0
+        if change == "missed edge":
+            return within & ~on_edge
+        if change == "too steep":
+            around = within.copy()
+            around[max(first - 1, 0) : last + 2] = True
+            return around & (self.steps > 1)
+        starved = np.zeros(self.truth.width, np.bool_)
+        starved[on_edge] = detection.bank.starved[detection.bins[self.pixels[on_edge]]]
+        low = np.zeros(self.truth.width, np.bool_)
+        low[on_edge] = detection.scores[self.pixels[on_edge]] < _LOW_SCORE * self.typical[0]
+        return within & on_edge & low & (starved if change == "starved bin" else ~starved)
+
+    def window(self, first: int, last: int) -> tuple[int, int]:
+        """Columns to search again: to a right one beyond some room on either side, or the rim."""
+        room = max(64, last - first)
+        left = np.flatnonzero(self.right[: max(first - room, 0) + 1])
+        right = np.flatnonzero(self.right[min(last + room, self.truth.width - 1) :])
+        start = int(left[-1]) if len(left) else 0
+        stop = int(right[0]) + min(last + room, self.truth.width - 1) if len(right) else -1
+        return start, stop if stop >= 0 else self.truth.width - 1
+
+    def search(self, changes: Iterable[Change], first: int, last: int) -> tuple[int, Int]:
+        """The path with the truth's columns from `first` to `last` made right in some respects.
+
+        Returns:
+            First column of the part that was searched again, and the rows from there on.
+        """
+        start, stop = self.window(first, last)
+        detection, config = self.detection, self.detection.config
+        cost = detection.cost[:, start : stop + 1].T.astype(np.float64)
+        reach = np.full(stop - start, config.delta, np.int32)
+        for change in changes:
+            columns = np.flatnonzero(self.columns_of(change, first, last))
+            rows = self.rows[columns]
+            if change == "missed edge":
+                score, strength = self.typical
+                edge = config.v * (1 - score) + (1 - config.v) * (1 - strength)
+                cost[columns - start, rows] += edge - config.non_edge_cost
+                if config.clear_sky:
+                    below = np.arange(cost.shape[1])[None, :] > rows[:, None] + CLEAR_SKY_ROWS
+                    cost[columns - start] += config.clear_sky * below
+            elif change == "too steep":
+                steps = self.steps[columns]
+                cost[columns - start, rows] -= config.link_weight * steps
+                links = columns - start - 1
+                inside = (links >= 0) & (links < len(reach))
+                reach[links[inside]] = np.maximum(reach[links[inside]], steps[inside])
+            else:
+                low = detection.scores[self.pixels[columns]]
+                cost[columns - start, rows] -= config.v * np.maximum(self.typical[0] - low, 0)
+        rows_at = detection.skyline.rows.astype(np.intp)
+        for column, fixed in ((start, start > 0), (stop, stop < self.truth.width - 1)):
+            if fixed or (self.right[column] and column in (start, stop)):
+                kept = cost[column - start, rows_at[column]]
+                cost[column - start] = np.inf
+                cost[column - start, rows_at[column]] = kept
+        return start, _cheapest(cost, np.minimum(reach, cost.shape[1] - 1), config.link_weight)
+
+    def repaired(self, start: int, rows: Int, first: int, last: int) -> float:
+        """Share of the visible columns from `first` to `last` in which a path is right."""
+        part = slice(first, last + 1)
+        off = np.abs(rows[first - start : last + 1 - start] - self.truth.rows[part])
+        seen = self.truth.visible[part]
+        return float((off[seen] <= self.tolerance).mean()) if seen.any() else 1.0
+
+    @cached_property
+    def _on_edges(self) -> tuple[Int, Int]:
+        height, width = self.detection.edges.shape
+        rows = np.clip(np.floor(self.truth.rows + 0.5), 0, height - 1).astype(np.int32)
+        index = edge_index(self.detection)
+        columns = np.arange(width)
+        pixels = index[rows, columns]
+        found = rows.copy()
+        near = max(round(_NEAR * height / REFERENCE_HEIGHT), 2)
+        for away in (sign * step for step in range(1, near + 1) for sign in (-1, 1)):
+            moved = np.clip(rows + away, 0, height - 1)
+            better = (pixels < 0) & (index[moved, columns] >= 0)
+            found[better] = moved[better]
+            pixels = np.where(better, index[moved, columns], pixels)
+        return found, pixels.astype(np.int32)
+
+
+def scaled(pixels: float, height: int) -> float:
+    """A length that is meant for photos of `REFERENCE_HEIGHT` rows, on a photo of `height` rows.
+
+    >>> scaled(4, 519), scaled(4, 240), scaled(4, 1038)
+    (4, 4, 8.0)
+    """
+    return pixels if height <= REFERENCE_HEIGHT else pixels * height / REFERENCE_HEIGHT
+
+
+def _cheapest(cost: F64, reach: Int, link_weight: float) -> Int:
+    """Rows of the cheapest path through ``(w, H)`` costs, with its own reach on each link."""
+    table = np.empty_like(cost)
+    table[0] = cost[0]
+    sweep(cost, reach, float(link_weight), table, 0, len(cost) - 1)
+    rows = np.empty(len(cost), np.int32)
+    rows[-1] = cheapest_end(table[-1])
+    trace(table, reach, float(link_weight), rows, len(cost) - 1, 0)
+    return rows

@@ -1,0 +1,343 @@
+"""Why a skyline went wrong: each failing segment gets a cause, proved by a counterfactual.
+
+==============  =================================================================================
+cause           what is true of the segment
+==============  =================================================================================
+truth doubtful  the truth lies off every edge while the path follows one a few pixels beside it
+missed edge     with edges where the truth has none, the path comes back
+starved bin     with typical scores where the truth's bins are starved, it comes back
+misjudged       with typical scores where the truth's bins are well trained, it comes back
+too steep       with the truth's steps allowed and free, it comes back
+cheaper path    nothing of it, alone or together, brings it back: the other line is simply cheaper
+==============  =================================================================================
+
+The first that holds is the cause. Where only several together bring the path back, the one that
+changes the cost of the truth most is the main cause, and the others contribute.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from skyline_viz.arrays import Int
+from skyline_viz.cost_split import CostSplit, split_cost
+from skyline_viz.counterfactual import CHANGES, Case, Change, scaled
+from skyline_viz.detector import Detection
+from skyline_viz.skyline import Skyline, SkylineError
+
+Cause: TypeAlias = Literal[
+    "truth doubtful", "missed edge", "starved bin", "misjudged", "too steep", "cheaper path"
+]
+"""Why a segment went wrong."""
+
+CAUSES: tuple[Cause, ...] = ("truth doubtful", *CHANGES, "cheaper path")
+
+TOLERANCE = 4.0
+"""Error up to which a column is right, in pixels at 519 rows."""
+
+REPAIRED = 0.8
+"""Share of a segment's columns that have to be right again for the path to have come back."""
+
+_GAP = 5  # right columns that do not end a segment
+_OFF_EDGES = 0.6  # share of the truth's columns without an edge that makes it doubtful
+_ON_EDGES = 0.7  # share of the path's columns on edges that it takes
+_SPREAD = 1.5  # how much the distance may vary (its median deviation), in pixels
+_BESIDE = 20.0  # distance up to which the path is a few pixels beside, at 519 rows
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One counterfactual of a segment."""
+
+    changes: tuple[Cause, ...]
+    """What was made right."""
+
+    columns: int
+    """In how many columns."""
+
+    repaired: float
+    """Share of the segment's columns that are right then."""
+
+
+@dataclass(frozen=True, eq=False)
+class Segment:
+    """Columns in which the path is wrong, and why."""
+
+    columns: tuple[int, int]
+    """The first and the last one."""
+
+    mean_error: float
+    """In pixels."""
+
+    worst_error: float
+    """In pixels."""
+
+    cause: Cause
+    """Why."""
+
+    contributing: tuple[Cause, ...]
+    """Causes without which the main one would not have been enough."""
+
+    evidence: str
+    """What was found, in a sentence or two."""
+
+    trials: tuple[Trial, ...]
+    """All counterfactuals that were tried."""
+
+    margin: float
+    """How clear the decision is: the repaired share by which it was made, less the best of the
+    trials that it was made against; from 0 (a toss-up) to 1."""
+
+    path_cost: dict[str, float]
+    """What the path pays in the segment, stage by stage, see `cost_split.CostSplit`."""
+
+    truth_cost: dict[str, float]
+    """What the truth pays."""
+
+    line: tuple[int, Int]
+    """The path of the counterfactual that decided: first column, and rows from there on."""
+
+    @property
+    def length(self) -> int:
+        """Number of columns."""
+        return self.columns[1] - self.columns[0] + 1
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """Why a detection went wrong, segment by segment; without segments it is right."""
+
+    segments: tuple[Segment, ...]
+    """From left to right."""
+
+    tolerance: float
+    """Error up to which a column counts as right, in pixels."""
+
+    @property
+    def right(self) -> bool:
+        """Whether the detection is right everywhere."""
+        return not self.segments
+
+    @property
+    def main(self) -> Segment | None:
+        """The segment with the largest total error."""
+        return max(self.segments, key=lambda one: one.mean_error * one.length, default=None)
+
+    def document(self) -> dict[str, Any]:
+        """Everything but the lines, for JSON."""
+        kept = [one.name for one in fields(Segment) if one.name not in ("line", "trials")]
+        return {
+            "tolerance": self.tolerance,
+            "segments": [
+                {
+                    **{name: getattr(segment, name) for name in kept},
+                    "trials": [vars(trial) for trial in segment.trials],
+                }
+                for segment in self.segments
+            ],
+        }
+
+    def markdown(self, name: str = "") -> str:
+        """A report for people."""
+        lines = [f"**{name}**  "] if name else []
+        if self.right:
+            return "\n".join(
+                [*lines, f"Right: no column is off by more than {self.tolerance:g} px."]
+            )
+        for one in self.segments:
+            first, last = one.columns
+            also = f", with {' and '.join(one.contributing)}" if one.contributing else ""
+            lines += [
+                f"**{one.cause}{also}**, columns {first} to {last}  ",
+                f"off by {one.mean_error:.1f} px in the mean, {one.worst_error:.0f} at worst  ",
+                f"{one.evidence}",
+                "",
+            ]
+        return "\n".join(lines)
+
+
+def diagnose(detection: Detection, truth: Skyline, tolerance: float | None = None) -> Diagnosis:
+    """Find out why a detection went wrong.
+
+    Args:
+        detection: The detection.
+        truth: The true line.
+        tolerance: Error up to which a column is right, in pixels; `TOLERANCE`, scaled for photos
+            of more than 519 rows, unless given.
+
+    Raises:
+        SkylineError: The truth has another width than the photo.
+    """
+    height, width = detection.edges.shape
+    if truth.width != width:
+        raise SkylineError(f"the photo is {width} columns wide, the truth {truth.width}")
+    allowed = scaled(TOLERANCE, height) if tolerance is None else tolerance
+    case = Case(detection, truth, allowed)
+    runs = failing_runs(case.errors > allowed)
+    if not runs:
+        return Diagnosis((), allowed)
+    path = split_cost(detection, detection.skyline.rows.astype(np.int32))
+    ideal = split_cost(detection, case.rows)
+    return Diagnosis(tuple(_explain(case, run, path, ideal) for run in runs), allowed)
+
+
+def failing_runs(wrong: np.ndarray[Any, np.dtype[np.bool_]]) -> list[tuple[int, int]]:
+    """First and last column of each run of wrong columns; a few right ones do not end it."""
+    columns = np.flatnonzero(wrong)
+    if len(columns) == 0:
+        return []
+    runs = np.split(columns, np.flatnonzero(np.diff(columns) > _GAP + 1) + 1)
+    return [(int(run[0]), int(run[-1])) for run in runs]
+
+
+def _explain(case: Case, run: tuple[int, int], path: CostSplit, ideal: CostSplit) -> Segment:
+    first, last = run
+    trials: list[Trial] = []
+    lines: dict[tuple[Change, ...], tuple[int, Int]] = {}
+
+    def tried(*changes: Change) -> float:
+        touched = np.zeros(case.truth.width, np.bool_)
+        for change in changes:
+            touched |= case.columns_of(change, first, last)
+        lines[changes] = case.search(changes, first, last)
+        share = case.repaired(*lines[changes], first, last)
+        trials.append(Trial(changes, int(touched.sum()), share))
+        return share
+
+    usable = [one for one in CHANGES if case.columns_of(one, first, last).any()]
+    errors = case.errors[first : last + 1]
+    cause: Cause
+    contributing: tuple[Cause, ...] = ()
+    chosen: tuple[Change, ...] = ()
+    shares = {one: tried(one) for one in usable}
+    if doubt := _doubtful(case, first, last):
+        cause, margin, evidence = "truth doubtful", doubt[1], doubt[0]
+    else:
+        alone = [one for one in usable if shares[one] >= REPAIRED]
+        if alone:
+            chosen = (alone[0],)
+        elif len(usable) > 1 and tried(*usable) >= REPAIRED:
+            chosen = _needed(usable, tried)
+        if chosen:
+            main = max(chosen, key=lambda one: _effect(case, one, first, last))
+            cause = main
+            contributing = tuple(one for one in chosen if one != main)
+            share = next(one.repaired for one in reversed(trials) if one.changes == chosen)
+            others = [one.repaired for one in trials if main not in one.changes]
+            margin = share - max(others, default=0.0)
+            evidence = _evidence(case, chosen, first, last, share)
+        else:
+            cause = "cheaper path"
+            margin = REPAIRED - max((one.repaired for one in trials), default=0.0)
+            evidence = _cheaper(path, ideal, first, last, trials)
+    return Segment(
+        columns=run,
+        mean_error=float(np.nanmean(errors)),
+        worst_error=float(np.nanmax(errors)),
+        cause=cause,
+        contributing=contributing,
+        evidence=evidence,
+        trials=tuple(trials),
+        margin=max(float(margin), 0.0),
+        path_cost=path.totals(first, last),
+        truth_cost=ideal.totals(first, last),
+        line=lines[chosen] if chosen else (first, case.rows[first : last + 1]),
+    )
+
+
+def _needed(usable: Sequence[Change], tried: Any) -> tuple[Change, ...]:  # noqa: ANN401
+    """The fewest changes that repair together: those are dropped without which it still does."""
+    kept = list(usable)
+    for one in reversed(usable):
+        rest = [other for other in kept if other != one]
+        if len(rest) > 1 and tried(*rest) >= REPAIRED:
+            kept = rest
+    return tuple(kept)
+
+
+def _effect(case: Case, change: Change, first: int, last: int) -> float:
+    """How much cheaper a change makes the truth."""
+    columns = case.columns_of(change, first, last)
+    config = case.detection.config
+    if change == "missed edge":
+        score, strength = case.typical
+        edge = config.v * (1 - score) + (1 - config.v) * (1 - strength)
+        return float(columns.sum() * (config.non_edge_cost - edge))
+    if change == "too steep":
+        steep = np.maximum(case.steps[columns] - config.delta, 0)
+        return float(config.link_weight * case.steps[columns].sum() + steep.sum())
+    low = case.detection.scores[case.pixels[columns]]
+    return float(config.v * np.maximum(case.typical[0] - low, 0).sum())
+
+
+def _doubtful(case: Case, first: int, last: int) -> tuple[str, float] | None:
+    """What speaks against the truth, and how clearly; None where nothing does."""
+    part = slice(first, last + 1)
+    seen = case.truth.visible[part]
+    off = float((case.pixels[part] < 0)[seen].mean())
+    rows = case.detection.skyline.rows[part].astype(np.intp)
+    columns = np.arange(first, last + 1)
+    on = float(case.detection.edges[rows, columns][seen].mean())
+    away = (case.detection.skyline.rows[part] - case.truth.rows[part])[seen]
+    apart = float(np.median(away))
+    spread = float(np.median(np.abs(away - apart)))
+    height = len(case.detection.photo)
+    beside = abs(apart) <= scaled(_BESIDE, height) and spread <= scaled(_SPREAD, height)
+    if not (beside and off >= _OFF_EDGES and on >= _ON_EDGES and len(away) >= 8):
+        return None
+    where = "above" if apart > 0 else "below"
+    return (
+        f"The truth has no edge in {off:.0%} of the columns, and runs {abs(apart):.0f} px {where} "
+        f"a line that is on an edge in {on:.0%} of them: check the annotation.",
+        min(off, on),
+    )
+
+
+def _evidence(case: Case, chosen: Sequence[Change], first: int, last: int, share: float) -> str:
+    """What was found and what was changed."""
+    detection = case.detection
+    length = last - first + 1
+    said = []
+    for change in chosen:
+        columns = case.columns_of(change, first, last)
+        count = int(columns.sum())
+        if change == "missed edge":
+            said.append(f"the truth has no edge in {count} of {length} columns")
+        elif change == "too steep":
+            steepest = int(case.steps[columns].max())
+            config = detection.config
+            said.append(
+                f"the truth climbs up to {steepest} rows a column "
+                f"(delta {config.delta}, link weight {config.link_weight:g})"
+            )
+        else:
+            pixels = case.pixels[columns]
+            score = float(np.median(detection.scores[pixels]))
+            bins = np.unique(detection.bins[pixels])
+            kind = "starved" if change == "starved bin" else "well-trained"
+            said.append(
+                f"{count} edge pixels of the truth score {score:.2f} in {len(bins)} {kind} "
+                f"{'bin' if len(bins) == 1 else 'bins'}, where {case.typical[0]:.2f} is typical"
+            )
+    found = "; ".join(said)
+    return f"{found[:1].upper()}{found[1:]}. With that made right, {share:.0%} of them are right."
+
+
+def _cheaper(
+    path: CostSplit, ideal: CostSplit, first: int, last: int, trials: Sequence[Trial]
+) -> str:
+    """Which stage prefers the path, and by how much."""
+    paid, due = path.totals(first, last), ideal.totals(first, last)
+    dearer = {stage: due[stage] - paid[stage] for stage in paid}
+    stage = max(dearer, key=lambda one: dearer[one])
+    best = max((one.repaired for one in trials), default=0.0)
+    total = sum(dearer.values())
+    return (
+        f"The path is {total:.1f} cheaper than the truth here, {dearer[stage]:.1f} of it by "
+        f"{stage.replace('_', ' ')}. "
+        f"No change of the truth brings back more than {best:.0%} of the columns."
+    )
