@@ -13,7 +13,7 @@ import platform
 import sys
 from pathlib import Path
 
-from benchmarks import accuracy, filters, labelling, recordings, robustness, speed
+from benchmarks import accuracy, causes, filters, labelling, recordings, robustness, speed
 from skyline_viz import __version__
 from skyline_viz.files import write_text
 
@@ -36,7 +36,7 @@ def main() -> None:
         parts += [accuracy.cross_validated(web), robustness.varied(web), filters.studies(web)]
     parts += [accuracy.rendered(ROOT / "sample_data"), speed.measured(web, ROOT / "sample_data")]
     parts.append(recordings.measured(web, ROOT / "sample_data"))
-    parts.append(labelling.measured(web, data))
+    parts += [labelling.measured(web, data), causes.confusion()]
     report = "\n\n".join(parts) + "\n"
     write_text(ROOT / "benchmarks" / "results.md", report)
     print(report)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
     from skyline_viz.datasets import Dataset, DatasetError, DatasetItem, open_dataset
     from skyline_viz.detector import Detection, Detector
+    from skyline_viz.diagnosis import Diagnosis, diagnose
     from skyline_viz.filter_bank import FilterBank, FilterBankError
     from skyline_viz.metrics import a_err, column_errors, is_gross_miss, segmentation_accuracy
     from skyline_viz.notebook import show_detection
@@ -43,6 +44,7 @@ _HOME = {
     "Detection": "detector",
     "Detector": "detector",
     "DetectorConfig": "config",
+    "Diagnosis": "diagnosis",
     "FilterBank": "filter_bank",
     "FilterBankError": "filter_bank",
     "PathError": "constraints",
@@ -53,6 +55,7 @@ _HOME = {
     "Verdict": "verdict",
     "a_err": "metrics",
     "column_errors": "metrics",
+    "diagnose": "diagnosis",
     "is_gross_miss": "metrics",
     "log_detection": "recording",
     "log_stages": "recording",
@@ -75,6 +78,7 @@ __all__ = [
     "Detection",
     "Detector",
     "DetectorConfig",
+    "Diagnosis",
     "FilterBank",
     "FilterBankError",
     "PathError",
@@ -86,6 +90,7 @@ __all__ = [
     "Verdict",
     "a_err",
     "column_errors",
+    "diagnose",
     "is_gross_miss",
     "log_detection",
     "log_stages",

@@ -8,6 +8,7 @@ import tyro
 from skyline_viz import __version__
 from skyline_viz.commands.demo import Demo
 from skyline_viz.commands.detect import Detect
+from skyline_viz.commands.diagnose import Diagnose
 from skyline_viz.commands.evaluate import Evaluate
 from skyline_viz.commands.gallery import GalleryCommand
 from skyline_viz.commands.inspect import Inspect
@@ -52,6 +53,7 @@ def _commands(preset: Preset) -> Any:  # noqa: ANN401  # a union that is made at
         "gallery": GalleryCommand(config=config),
         "train": Train(missing, missing, training=TrainingConfig(detector=config)),
         "evaluate": Evaluate(missing, config=config),
+        "diagnose": Diagnose(missing, config=config),
         "render": Render(),
         "demo": Demo(),
     }

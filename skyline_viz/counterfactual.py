@@ -32,7 +32,8 @@ REFERENCE_HEIGHT = 519
 """Rows of the photos for which tolerances in pixels are meant; larger photos have larger ones."""
 
 _NEAR = 2.0  # rows within which an edge counts as one of the truth, at the reference height
-_LEAST_TYPICAL = 20  # columns that a typical value is the median of
+_LEAST_TYPICAL = 20  # edge pixels that a typical value is taken from
+_LEAST_SCORE = 0.6  # no filter that has learned anything gives the skyline less; its target is 1
 _LOW_SCORE = 0.75  # share of the typical score below which a score is low
 
 
@@ -62,6 +63,13 @@ class Case:
         return rows
 
     @cached_property
+    def drawn_rows(self) -> Int:
+        """``(W,)`` row of the truth as it is, inside the photo."""
+        height = len(self.detection.edges)
+        rows: Int = np.floor(self.truth.rows + 0.5).clip(0, height - 1).astype(np.int32)
+        return rows
+
+    @cached_property
     def pixels(self) -> Int:
         """``(W,)`` the truth's edge pixel in each column, as an index; -1 where it has none."""
         _, pixels = self._on_edges
@@ -75,13 +83,17 @@ class Case:
 
     @cached_property
     def typical(self) -> tuple[float, float]:
-        """Score and strength of the truth's edges where the path is right; else of all of them."""
-        for chosen in (self.right & (self.pixels >= 0), self.pixels >= 0):
-            if chosen.sum() >= _LEAST_TYPICAL:
-                pixels = self.pixels[chosen]
-                scores = self.detection.scores[pixels]
-                return float(np.median(scores)), float(np.median(self.strength[pixels]))
-        return 0.8, 0.5
+        """Score and strength that an edge of the truth has when all is well.
+
+        The upper quartile of the truth's own edges: where many of them fail, their median would
+        be the failure itself.
+        """
+        pixels = self.pixels[(self.pixels >= 0) & self.truth.visible]
+        if len(pixels) < _LEAST_TYPICAL:
+            return 0.8, 0.5
+        scores, strength = self.detection.scores[pixels], self.strength[pixels]
+        typical = max(float(np.percentile(scores, 75)), _LEAST_SCORE)
+        return typical, float(np.percentile(strength, 75))
 
     @cached_property
     def steps(self) -> Int:
@@ -137,7 +149,8 @@ class Case:
                     cost[columns - start] += config.clear_sky * below
             elif change == "too steep":
                 steps = self.steps[columns]
-                cost[columns - start, rows] -= config.link_weight * steps
+                inner = np.clip(columns, first, last)  # on the truth alone, not where lines meet
+                np.subtract.at(cost, (inner - start, self.rows[inner]), config.link_weight * steps)
                 links = columns - start - 1
                 inside = (links >= 0) & (links < len(reach))
                 reach[links[inside]] = np.maximum(reach[links[inside]], steps[inside])
@@ -162,7 +175,7 @@ class Case:
     @cached_property
     def _on_edges(self) -> tuple[Int, Int]:
         height, width = self.detection.edges.shape
-        rows = np.clip(np.floor(self.truth.rows + 0.5), 0, height - 1).astype(np.int32)
+        rows = self.drawn_rows
         index = edge_index(self.detection)
         columns = np.arange(width)
         pixels = index[rows, columns]

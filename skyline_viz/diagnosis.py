@@ -43,9 +43,9 @@ REPAIRED = 0.8
 """Share of a segment's columns that have to be right again for the path to have come back."""
 
 _GAP = 5  # right columns that do not end a segment
-_OFF_EDGES = 0.6  # share of the truth's columns without an edge that makes it doubtful
-_ON_EDGES = 0.7  # share of the path's columns on edges that it takes
-_SPREAD = 1.5  # how much the distance may vary (its median deviation), in pixels
+_ON_EDGES = 0.7  # share of the path's columns on edges from which on the truth is doubtful,
+_FEW_EDGES, _MORE_EDGES = 0.6, 0.2  # if the truth's share is at most this, and so much less
+_SPREAD = 1.0  # how much the distance may vary (its median deviation), in pixels
 _BESIDE = 20.0  # distance up to which the path is a few pixels beside, at 519 rows
 
 
@@ -278,22 +278,29 @@ def _doubtful(case: Case, first: int, last: int) -> tuple[str, float] | None:
     """What speaks against the truth, and how clearly; None where nothing does."""
     part = slice(first, last + 1)
     seen = case.truth.visible[part]
-    off = float((case.pixels[part] < 0)[seen].mean())
-    rows = case.detection.skyline.rows[part].astype(np.intp)
     columns = np.arange(first, last + 1)
-    on = float(case.detection.edges[rows, columns][seen].mean())
+    edges = case.detection.edges
+    height = len(edges)
+    on, truth_on = (
+        max(
+            float(edges[np.clip(rows[part] + away, 0, height - 1), columns][seen].mean())
+            for away in (-1, 0, 1)
+        )
+        for rows in (case.detection.skyline.rows.astype(np.intp), case.drawn_rows)
+    )
     away = (case.detection.skyline.rows[part] - case.truth.rows[part])[seen]
     apart = float(np.median(away))
     spread = float(np.median(np.abs(away - apart)))
-    height = len(case.detection.photo)
     beside = abs(apart) <= scaled(_BESIDE, height) and spread <= scaled(_SPREAD, height)
-    if not (beside and off >= _OFF_EDGES and on >= _ON_EDGES and len(away) >= 8):
+    more = on - truth_on
+    sparse = truth_on <= _FEW_EDGES and more >= _MORE_EDGES
+    if not (beside and on >= _ON_EDGES and sparse and len(away) >= 8):
         return None
     where = "above" if apart > 0 else "below"
     return (
-        f"The truth has no edge in {off:.0%} of the columns, and runs {abs(apart):.0f} px {where} "
-        f"a line that is on an edge in {on:.0%} of them: check the annotation.",
-        min(off, on),
+        f"The truth is on an edge in {truth_on:.0%} of the columns, and runs {abs(apart):.0f} px "
+        f"{where} a line that is on an edge in {on:.0%} of them: check the annotation.",
+        more,
     )
 
 

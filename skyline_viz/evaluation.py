@@ -61,6 +61,34 @@ def cross_validate(
     Raises:
         ValueError: There are too few photos for so many folds.
     """
+    detectors, failures = fold_detectors(
+        items, folds, config=config, training=training, seed=seed, workers=workers
+    )
+    tests = [Test(item, detectors[item.name]) for item in items if item.name in detectors]
+    tests.sort(key=lambda test: test.name)
+    results, more = _parted(run(_test, tests, workers=workers))
+    return results, failures + more
+
+
+def fold_detectors(
+    items: Sequence[DatasetItem],
+    folds: int,
+    *,
+    config: DetectorConfig | None = None,
+    training: TrainingConfig | None = None,
+    seed: int = 0,
+    workers: int = 1,
+) -> tuple[dict[str, Detector], list[Failure]]:
+    """For each photo a detector that was trained on the photos of all other folds.
+
+    Takes what `cross_validate` takes.
+
+    Returns:
+        The detectors by the name of the photo, and the photos that failed.
+
+    Raises:
+        ValueError: There are too few photos for so many folds.
+    """
     items = sorted(items, key=lambda item: item.name)
     if not 2 <= folds <= len(items):
         raise ValueError(f"folds is a number from 2 to the {len(items)} photos, not {folds}")
@@ -76,14 +104,12 @@ def cross_validate(
         else:
             sums[index % folds] += outcome
             usable.append((index % folds, items[index]))
-    tests = []
+    detectors: dict[str, Detector] = {}
     for fold in range(folds):
         others = reduce(add, (gram for other, gram in enumerate(sums) if other != fold))
         detector = Detector(solve(others, seed, training), config)
-        tests += [_Test(item, detector) for of, item in usable if of == fold]
-    tests.sort(key=lambda test: test.name)
-    results, more = _parted(run(_test, tests, workers=workers))
-    return results, failures + more
+        detectors |= {item.name: detector for of, item in usable if of == fold}
+    return detectors, failures
 
 
 def train_on(
@@ -135,18 +161,19 @@ def warm_up() -> None:
 
 
 @dataclass(frozen=True)
-class _Test:
-    """A photo, and the detector of its fold."""
+class Test:
+    """A photo, and the detector that it is tested with."""
 
     item: DatasetItem
     detector: Detector
 
     @property
     def name(self) -> str:
+        """The photo's name."""
         return self.item.name
 
 
-def _test(test: _Test) -> PhotoResult:
+def _test(test: Test) -> PhotoResult:
     return _detect_and_compare(test.detector, test.item)
 
 

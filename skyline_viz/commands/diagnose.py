@@ -1,0 +1,136 @@
+"""``skyline-viz diagnose``: why skylines went wrong, photo by photo and all together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import partial
+from typing import TYPE_CHECKING
+
+import tyro
+
+from skyline_viz.batch import Failure, run
+from skyline_viz.commands.inputs import output_folder, with_truth
+from skyline_viz.commands.messages import UsageError, counted, say, status_after
+from skyline_viz.commands.settings import (
+    BankFile,
+    Folder,
+    OptionalFolder,
+    Preset,
+    Switch,
+    make_detector,
+)
+from skyline_viz.config import DetectorConfig
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from skyline_viz.datasets import DatasetItem
+    from skyline_viz.detector import Detector
+    from skyline_viz.diagnosis_report import Diagnosed
+
+
+@dataclass(frozen=True)
+class Diagnose:
+    """Say why skylines went wrong, and prove it by changing one thing and searching again."""
+
+    dataset: tyro.conf.Positional[Folder]
+    """Folder of a data set with truths, in a published layout or plain."""
+
+    photo: str = ""
+    """Name of one photo, to print its diagnosis in full."""
+
+    tolerance: float = 0.0
+    """Error up to which a column is right, in pixels; 0 takes 4, more for large photos."""
+
+    folds: int = 0
+    """Folds of a cross-validation, which trains on all folds but the diagnosed one; 0 is none."""
+
+    no_remedies: Switch = False
+    """Do not try what would help most: other settings, on all photos."""
+
+    out: OptionalFolder = None
+    """Folder for segments.csv and diagnosis.json; made where it is missing."""
+
+    bank: BankFile = None
+    """Filter bank to use; the shipped one unless given."""
+
+    preset: Preset = "default"
+    """Where the settings below start from: the best that is known, or the published method."""
+
+    seed: int = 0
+    """Seed of the negative samples in a cross-validation."""
+
+    workers: int = 0
+    """Processes to work in; 0 chooses by the number of photos."""
+
+    config: DetectorConfig = field(default_factory=DetectorConfig)
+    """Single settings of the detector."""
+
+    def run(self) -> int:
+        """Diagnose all photos that have a truth; return the exit status."""
+        from skyline_viz.datasets import open_dataset  # noqa: PLC0415
+
+        if self.folds and self.bank:
+            raise UsageError("--folds trains filter banks of its own; leave out --bank.")
+        if self.tolerance < 0:
+            raise UsageError(f"a tolerance is 0 px or more, not {self.tolerance:g}.")
+        dataset = open_dataset(self.dataset)
+        items = with_truth(dataset)
+        if self.photo and self.photo not in {item.name for item in items}:
+            raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
+        if self.out:
+            output_folder(self.out, dataset)
+        detectors, failures = self._detectors(items)
+        if self.photo:
+            items = [item for item in items if item.name == self.photo]
+        found, failed = self._diagnose(items, detectors)
+        self._tell(dataset.name, found)
+        return status_after([*failures, *failed])
+
+    def _detectors(self, items: Sequence[DatasetItem]) -> tuple[dict[str, Detector], list[Failure]]:
+        """The detector of each photo, by its name."""
+        if not self.folds:
+            detector = make_detector(self.bank, self.config)
+            return {item.name: detector for item in items}, []
+        from skyline_viz.evaluation import fold_detectors  # noqa: PLC0415
+
+        return fold_detectors(
+            items, self.folds, config=self.config, seed=self.seed, workers=self.workers
+        )
+
+    def _diagnose(
+        self, items: Sequence[DatasetItem], detectors: dict[str, Detector]
+    ) -> tuple[list[Diagnosed], list[Failure]]:
+        from skyline_viz.diagnosis_report import diagnose_item  # noqa: PLC0415
+        from skyline_viz.evaluation import Test  # noqa: PLC0415
+
+        work = partial(
+            diagnose_item, self.tolerance or None, remedies=not (self.no_remedies or self.photo)
+        )
+        tasks = [Test(item, detectors[item.name]) for item in items if item.name in detectors]
+        found, failures = [], []
+        for outcome in run(work, tasks, workers=self.workers, title="diagnosing"):
+            if isinstance(outcome, Failure):
+                failures.append(outcome)
+            else:
+                found.append(outcome)
+        return found, failures
+
+    def _tell(self, name: str, found: list[Diagnosed]) -> None:
+        from skyline_viz import diagnosis_report as report  # noqa: PLC0415
+
+        if self.out:
+            report.write_csv(self.out / "segments.csv", found)
+            report.write_json(self.out / "diagnosis.json", name, found)
+        if self.photo:
+            for one in found:
+                print(report.in_full(one))
+        elif found:
+            print(f"{name}: {counted(len(found), 'photo')}")
+            print(report.table(found))
+            if not self.no_remedies:
+                print(report.remedies_table(found))
+        if self.out:
+            print(f"segments.csv and diagnosis.json in {self.out}")
+        if not found:
+            say("nothing was diagnosed.")
