@@ -15,7 +15,7 @@ export function keyTable(act) {
       act.moveColumn((event.key === "ArrowLeft" ? -1 : 1) * pace(event)), "ArrowLeft", "ArrowRight"),
     one("↑ ↓", "Move its row; with Shift 10, with Ctrl 100 rows", (event) =>
       act.moveRow((event.key === "ArrowUp" ? -1 : 1) * pace(event)), "ArrowUp", "ArrowDown"),
-    one("Enter", "Set an anchor at the cursor", () => act.anchorHere(), "Enter"),
+    one("Enter, Shift+Enter", "Set an anchor at the cursor; and leave the old line around it", (event) => act.anchorHere(event.shiftKey), "Enter"),
     one("Delete", "Remove the anchor nearest the cursor", () => act.removeNearest(), "Delete", "Backspace"),
     one("1 2 3 4", "Other lines through the cursor's column, the likeliest first", (event) => act.alternative(Number(event.key)), "1", "2", "3", "4"),
     one("U, Ctrl+Z", "Undo", () => act.undo(), "u", "Ctrl+z"),

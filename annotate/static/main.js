@@ -58,12 +58,30 @@ function goTo(column) {
   find("lines").focus({ preventScroll: true });
 }
 
-function setAnchor(column, row) {
-  const part = previewer.known(column, row);
+/**
+ * Set an anchor. With `across`, keep the line on this side of where it runs now: a thin stroke of the
+ * brush goes along the old line, up to the neighbouring anchors or an eighth of the photo away.
+ */
+function setAnchor(column, row, across = false) {
+  if (across && labelling.document.rows) rejectAround(column, row);
+  const part = across ? null : previewer.known(column, row);
   previewer.clear();
   if (lines.cursor) lines.cursor = { column, row: null };
   labelling.apply({ kind: "anchor", column, row }, part);
   labelling.say(`Anchor at column ${column}, row ${row}.`);
+}
+
+function rejectAround(column, row) {
+  const { width, height, rows, anchors } = labelling.document;
+  const radius = Math.max(Math.round(height / 260), 2);
+  if (Math.abs(rows[column] - row) <= 2 * radius) return;
+  const room = Math.round(width / 8);
+  const fixed = anchors.map(([one]) => one);
+  const first = Math.max(column - room, ...fixed.filter((one) => one < column).map((one) => one + room / 8), 0);
+  const last = Math.min(column + room, ...fixed.filter((one) => one > column).map((one) => one - room / 8), width - 1);
+  const points = [];
+  for (let at = Math.ceil(first); at <= last; at += 3) points.push([at, rows[at]]);
+  if (points.length) labelling.apply({ kind: "forbid", points, radius, allow: false });
 }
 
 /** Columns from the mark to the cursor, or of the cursor alone. */
@@ -120,8 +138,8 @@ const act = {
     previewer.ask(column, lines.cursor.row);
     labelling.say(`Column ${column}, row ${lines.cursor.row}.`);
   },
-  anchorHere() {
-    setAnchor(...place());
+  anchorHere(across) {
+    setAnchor(...place(), across);
   },
   removeNearest() {
     const [column] = place();

@@ -5,7 +5,7 @@ const BRUSH = 12; // radius of the brush, in screen pixels
 
 /** The tools, in the order of their buttons. */
 export const TOOLS = [
-  { id: "anchor", name: "Anchor", key: "A", title: "Click: the line passes through here. Drag an anchor to move it, right-click to remove it." },
+  { id: "anchor", name: "Anchor", key: "A", title: "Click: the line passes through here; with Shift, it leaves the old line around. Drag an anchor to move it, right-click to remove it." },
   { id: "forbid", name: "Brush", key: "B", title: "Paint where the line must not go; with Alt, erase." },
   { id: "straight", name: "Straight", key: "S", title: "Drag from one end of a straight piece to the other." },
   { id: "drawn", name: "Draw", key: "D", title: "Drag along the line." },
@@ -129,7 +129,7 @@ export class Pointer {
     const radius = lines.stroke?.radius;
     this.#drop();
     if (press.kind === "anchor" && (press.touch || !press.moved)) {
-      this.#parts.anchor(column, row);
+      this.#parts.anchor(column, row, event.shiftKey);
     } else if (press.kind === "drag" && press.moved) {
       labelling.apply({ kind: "move", from_column: press.anchor, column, row });
     } else if (press.kind === "drag") {

@@ -151,6 +151,26 @@ def test_every_tool_by_mouse_and_undo_across_a_reload(page, client):
     np.testing.assert_array_equal(exported(client) == 0, line.to_mask(HEIGHT))
 
 
+def test_shift_and_a_click_leave_the_old_line_around(page):
+    page.page.locator(".item", has_text="hill-0").click()
+    page.shows("hill-0.png")
+    before = rows_of(page, 2)
+    column = 200
+    row = page.client.get(f"/api/photos/2/alternatives/{column}").json()["alternatives"][0]["row"]
+    page.click(column, row)
+    plain = np.abs(rows_of(page, 2) - before) > 5
+    page.keys("u")
+    page.page.keyboard.down("Shift")
+    page.click(column, row)
+    page.page.keyboard.up("Shift")
+    across = np.abs(rows_of(page, 2) - before) > 5
+    assert rows_of(page, 2)[column] == row
+    assert across.sum() >= WIDTH // 5
+    assert across.sum() > plain.sum()
+    page.keys("u", "u")
+    np.testing.assert_array_equal(rows_of(page, 2), before)
+
+
 def test_right_click_removes_an_anchor(page):
     page.click(100, 80)
     assert len(page.document()["anchors"]) == 1
