@@ -5,6 +5,7 @@
 - *Tensor*: what picks the filter.
 - *Filter bank*: the filters, and which of them the path used.
 - *Columns*: error, margin and costs along the columns.
+- *Diagnosis*: why it went wrong, where it did.
 """
 
 from __future__ import annotations
@@ -46,6 +47,9 @@ class Contents:
     photos: int = 1
     """Number of photos on the `entities.IMAGE` timeline."""
 
+    diagnosed: bool = False
+    """Whether there is a diagnosis with failing segments."""
+
     compared: str = ""
     """Name of the second detection; nothing without one."""
 
@@ -63,6 +67,7 @@ def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blue
         _tensor_tab(contents),
         *([_bank_tab(contents)] if contents.bank else []),
         _columns_tab(contents),
+        *([_diagnosis_tab()] if contents.diagnosed else []),
         *([_compare_tab(contents)] if contents.compared else []),
         *([_photos_tab(contents)] if contents.photos > 1 else []),
     ]
@@ -164,6 +169,19 @@ def _columns_tab(contents: Contents) -> rrb.Container:
         *([_plot(entities.DIFFERENCES, "Difference (px)")] if contents.compared else []),
     ]
     return rrb.Vertical(*plots, name="Columns")
+
+
+def _diagnosis_tab() -> rrb.Container:
+    marks = [f"{entities.SEGMENTS}/**", entities.TRUTH_MISSED, entities.TRUTH_STARVED]
+    lines = _with_halos([entities.PATH, entities.TRUTH, entities.COUNTERFACTUAL])
+    photo = _photo_view(
+        "Yellow: the path with its cause made right. On the truth, orange: no edge; blue: starved",
+        [entities.PHOTO, *lines, *marks],
+    )
+    report = rrb.TextDocumentView(origin=entities.DIAGNOSIS, name="Why")
+    costs = _photo_view("What they pay", [entities.STACKED_COSTS])
+    foot = rrb.Horizontal(costs, report, column_shares=[2, 1])
+    return rrb.Vertical(photo, foot, row_shares=[3, 2], name="Diagnosis")
 
 
 def _compare_tab(contents: Contents) -> rrb.Container:

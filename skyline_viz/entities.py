@@ -89,6 +89,24 @@ BANK_CHOSEN = "bank/chosen"
 BANK_USED = "bank/used"
 """What is known about that pixel, in Markdown."""
 
+SEGMENTS = "diagnosis/segments"
+"""Frames around the failing segments; at ``largest`` below it the largest, with their causes."""
+
+COUNTERFACTUAL = "diagnosis/counterfactual"
+"""The path in each segment that comes back when its cause is made right."""
+
+TRUTH_MISSED = "diagnosis/missed"
+"""Pixels of the truth without an edge."""
+
+TRUTH_STARVED = "diagnosis/starved"
+"""Edge pixels of the truth in starved bins."""
+
+STACKED_COSTS = "diagnosis/costs"
+"""What path and truth pay in each column, stacked by stage, as a picture."""
+
+DIAGNOSIS = "diagnosis/report"
+"""The diagnosis, in Markdown."""
+
 OTHER = "other"
 """Parent of everything about a second detection."""
 

@@ -9,13 +9,16 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
+from skyline_viz import entities
 from skyline_viz.cli import main
 from skyline_viz.cost_split import split_cost
 from skyline_viz.counterfactual import Case
 from skyline_viz.diagnosis import CAUSES, REPAIRED, diagnose, failing_runs
+from skyline_viz.diagnosis_recording import log_diagnosis
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline, SkylineError
 from tests.injected import MAKERS, cases, main_cause
+from tests.recordings import Read, verify
 
 EACH = 6
 SAMPLES = str(Path(__file__).resolve().parents[1] / "sample_data")
@@ -128,3 +131,21 @@ def test_the_command_tells_one_photo_in_full(capsys):
     assert "has no photo nobody" in capsys.readouterr().err
     assert main(["diagnose", SAMPLES, "--tolerance", "-1"]) == 2
     assert main(["diagnose", SAMPLES, "--folds", "2", "--bank", "x.npz"]) == 2
+
+
+def test_the_viewer_gets_frames_lines_and_reasons(tmp_path):
+    (one,) = cases("too steep", 1)
+    diagnosis = diagnose(one.detection, one.truth)
+    with sv.new_recording(tmp_path / "d.rrd", "d") as recording:
+        log_diagnosis(recording, diagnosis, one.detection, one.truth, "tower")
+    verify(tmp_path / "d.rrd")
+    read = Read(tmp_path / "d.rrd")
+    words = read.last(entities.DIAGNOSIS, "TextDocument:text").as_py()[0]
+    assert words.startswith("**tower**")
+    assert "too steep" in words
+    strips = read.last(entities.COUNTERFACTUAL, "LineStrips2D:strips").as_py()
+    repaired = [one for one in diagnosis.segments if one.cause != "cheaper path"]
+    assert len(strips) == len(repaired)
+    labels = read.last(f"{entities.SEGMENTS}/largest", "Boxes2D:labels").as_py()
+    assert diagnosis.main.cause in labels
+    assert read.array(entities.STACKED_COSTS, "Image:buffer").size > 10_000

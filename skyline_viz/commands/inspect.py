@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import rerun as rr
 
     from skyline_viz.blueprints import Contents
-    from skyline_viz.detector import Detector
+    from skyline_viz.detector import Detection, Detector
     from skyline_viz.recording import Fidelity
     from skyline_viz.skyline import Skyline
 
@@ -188,6 +188,9 @@ class Inspect:
         if other:
             second = other.detect(photo)
             log_comparison(recording, found, second, truth, str(self.compare), fidelity)
+        diagnosed = (
+            alone and truth is not None and _log_diagnosis(recording, found, truth, one.name)
+        )
         if alone:
             recording.disable_timeline("column")
             log_path_bins(recording, found)
@@ -198,6 +201,7 @@ class Inspect:
             height,
             width,
             truth=truth is not None,
+            diagnosed=diagnosed,
             bank=fidelity == "full",
             path_bins=alone,
             photos=together,
@@ -243,3 +247,17 @@ class Inspect:
 
 class _Nothing(Exception):  # noqa: N818  # no error: there is nothing to write
     """No photo of a recording could be read."""
+
+
+def _log_diagnosis(
+    recording: rr.RecordingStream, found: Detection, truth: Skyline, name: str
+) -> bool:
+    """Log why a detection went wrong; return whether it did."""
+    from skyline_viz.diagnosis import diagnose  # noqa: PLC0415
+    from skyline_viz.diagnosis_recording import log_diagnosis  # noqa: PLC0415
+
+    diagnosis = diagnose(found, truth)
+    if diagnosis.right:
+        return False
+    log_diagnosis(recording, diagnosis, found, truth, name)
+    return True

@@ -47,10 +47,10 @@ def test_the_recording_is_whole(recording):
 
 
 def test_it_has_all_tabs(viewer):
-    assert tab_names(viewer) == [*TABS, "Compare"]
+    assert tab_names(viewer) == [*TABS, "Diagnosis", "Compare"]
 
 
-@pytest.mark.parametrize("tab", [*TABS, "Compare"])
+@pytest.mark.parametrize("tab", [*TABS, "Diagnosis", "Compare"])
 def test_every_tab_shows_something(viewer, tab):
     show_tab(viewer, tab)
     picture = np.asarray(settled_picture(viewer))
