@@ -58,7 +58,16 @@ class Learner:
 
     def _learn(self) -> Learning:
         bench = self._bench
-        labels = [one for one in bench.accepted() if one.skyline and one.skyline.visible.any()]
+        present = {
+            photo.digest
+            for photo in bench.photos.values()
+            if (bench.store.folder / photo.name).is_file()
+        }
+        labels = [
+            one
+            for one in bench.accepted()
+            if one.digest in present and one.skyline and one.skyline.visible.any()
+        ]
         if len(labels) < LEAST:
             found = len(labels)
             detail = f"learning needs {LEAST} accepted photos, and there are {found}."

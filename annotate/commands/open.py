@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import secrets
 import socket
 import webbrowser
@@ -141,7 +140,7 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
 
     listener = bound(host, port)
     port = listener.getsockname()[1]
-    token = os.environ.get("SKYLINE_ANNOTATE_TOKEN") or secrets.token_urlsafe(24)
+    token = secrets.token_urlsafe(24)
     app = make_app(bench, token, allowed_hosts(host, port))
     name = "127.0.0.1" if host in ("0.0.0.0", "::") else host  # noqa: S104
     address = f"http://{f'[{name}]' if ':' in name else name}:{port}/?token={token}"
