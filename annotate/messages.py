@@ -140,9 +140,11 @@ class Document(BaseModel):
     can_undo: bool
     can_redo: bool
     origins: dict[str, int]
+    doubtful: int | None
+    """A column that a diagnosis asks to look at."""
 
     @classmethod
-    def of(cls, session: Session) -> Document:
+    def of(cls, session: Session, doubtful: int | None) -> Document:
         """Show a session; hold its lock meanwhile."""
         wire, state, edits = session.wire, session.state, session.wire.edits
         counts = np.bincount(wire.origin, minlength=len(ORIGINS)).tolist()
@@ -163,6 +165,7 @@ class Document(BaseModel):
             can_undo=bool(state.done),
             can_redo=bool(state.undone),
             origins=dict(zip(ORIGINS, counts, strict=True)),
+            doubtful=doubtful,
         )
 
 

@@ -34,7 +34,7 @@ def document(bench: Bench, photo: PhotoId) -> Document:
     session = bench.session(photo)
     bench.prepare_after(photo)
     with session.lock:
-        return Document.of(session)
+        return Document.of(session, bench.doubts.get(photo))
 
 
 @router.get("/margins")
@@ -102,7 +102,7 @@ def _change(bench: Workbench, photo: int, how: Callable[[Session], None]) -> Doc
     try:
         with session.lock:
             how(session)
-            document = Document.of(session)
+            document = Document.of(session, bench.doubts.get(photo))
     except StaleError:
         bench.close_photo(photo)  # another program may have changed the labels
         raise

@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 
 from annotate import images
+from annotate.doubts import columns_of
 from annotate.labels import Label
 from annotate.session import Session, read_whole
 from annotate.store import Card, Photo, Store
@@ -66,16 +67,26 @@ class Progress:
 class Workbench:
     """A pass of an annotator over the photos of a folder."""
 
-    def __init__(self, store: Store, detector: Detector, assignment: Assignment) -> None:
+    def __init__(
+        self,
+        store: Store,
+        detector: Detector,
+        assignment: Assignment,
+        doubts: dict[str, int] | None = None,
+    ) -> None:
         """Find the photos.
 
         Args:
             store: The labels.
             detector: What proposes.
             assignment: Who labels, and how.
+            doubts: Only photos of these names are labelled; they open at these columns.
         """
         self.store, self.detector, self.assignment = store, detector, assignment
         self.photos = {photo.id: photo for photo in store.find()}
+        self.doubts = columns_of(doubts or {}, self.photos.values())
+        if doubts is not None:
+            self.photos = {one: self.photos[one] for one in self.photos if one in self.doubts}
         self._labels: dict[int, int] = {}
         self._open: OrderedDict[int, Future[Session]] = OrderedDict()
         self._lock = threading.RLock()

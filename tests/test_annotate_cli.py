@@ -1,5 +1,6 @@
 """``skyline-annotate``: what its commands say and do."""
 
+import json
 import re
 
 import numpy as np
@@ -9,13 +10,15 @@ from annotate.agreement import paired
 from annotate.cli import main
 from annotate.commands.open import propose_all
 from annotate.database import NAME
+from annotate.doubts import read_doubts
 from annotate.operations import SetStatus, Straight
 from annotate.store import Store
+from annotate.workbench import Assignment, Workbench
 from skyline_viz import __version__
 from skyline_viz.datasets import open_dataset
 from skyline_viz.photo import read_photo
 from skyline_viz.skyline import Skyline
-from tests.labelling import workbench, write_hills
+from tests.labelling import DETECTOR, workbench, write_hills
 
 
 def run(*words):
@@ -207,3 +210,29 @@ def test_random_orders_and_blind_shares_are_seeded(tmp_path):
     assert first != second
     assert order(0)[0] == first
     assert 2 <= len(blind) <= 10
+
+
+def test_doubtful_truths_are_opened_where_they_are_doubtful(folder, tmp_path, capsys):
+    segments = [
+        {"cause": "truth doubtful", "columns": [3, 6]},
+        {"cause": "truth doubtful", "columns": [20, 40]},
+        {"cause": "missed edge", "columns": [0, 69]},
+    ]
+    photos = [
+        {"name": "hill-1", "segments": segments},
+        {"name": "hill-2", "segments": segments[2:]},
+    ]
+    document = {"format": "skyline-diagnosis", "version": 1, "photos": photos}
+    file = tmp_path / "diagnosis.json"
+    file.write_text(json.dumps(document))
+    bench = Workbench(Store(folder), DETECTOR, Assignment("ann"), read_doubts(file))
+    assert [photo.name for photo in bench.photos.values()] == ["hill-1.png"]
+    assert list(bench.doubts.values()) == [30]
+    assert [card.photo.name for card in bench.cards()] == ["hill-1.png"]
+    bench.close()
+    file.write_text(json.dumps({**document, "photos": photos[1:]}))
+    assert run("open", folder, "--from-diagnosis", file) == 2
+    assert "doubts no truth of a photo" in capsys.readouterr().err
+    file.write_text("{}")
+    assert run("open", folder, "--from-diagnosis", file) == 2
+    assert "holds no diagnosis" in capsys.readouterr().err

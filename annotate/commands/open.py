@@ -7,6 +7,7 @@ import socket
 import webbrowser
 from contextlib import suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import tyro
@@ -43,6 +44,9 @@ class Open:
 
     seed: int = 0
     """Seed of the shuffled order, and of which photos are blind."""
+
+    from_diagnosis: Annotated[Path | None, tyro.conf.arg(metavar="FILE")] = None
+    """diagnosis.json of skyline-viz diagnose: only photos whose truth is doubtful, where it is."""
 
     bank: BankFile = None
     """Filter bank to propose with; the shipped one unless given."""
@@ -94,13 +98,18 @@ class Open:
             raise UsageError(f"ports are numbered up to 65535, so there is no port {self.port}.")
 
     def _serve(self) -> int:
+        from annotate.doubts import read_doubts  # noqa: PLC0415
         from annotate.store import Store  # noqa: PLC0415
         from annotate.workbench import Assignment, Workbench  # noqa: PLC0415
 
         who = Assignment(
             whoever(self.annotator), self.pass_number, self.order, self.blind, self.seed
         )
-        bench = Workbench(Store(self.folder), make_detector(self.bank, self.config), who)
+        doubts = read_doubts(self.from_diagnosis) if self.from_diagnosis else None
+        detector = make_detector(self.bank, self.config)
+        bench = Workbench(Store(self.folder), detector, who, doubts)
+        if doubts is not None and not bench.photos:
+            raise UsageError(f"{self.from_diagnosis} doubts no truth of a photo in {self.folder}.")
         if not bench.photos:
             raise UsageError(f"{self.folder} holds no photograph.")
         for problem in bench.store.problems:

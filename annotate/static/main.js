@@ -304,6 +304,10 @@ labelling.addEventListener("document", ({ detail }) => {
     find("empty").hidden = Boolean(shown.rows);
     find("empty").textContent = "This photo is labelled blind: nothing is proposed. Click along the skyline; anchors are joined by straight lines.";
   }
+  if (detail.fresh && shown.doubtful !== null) {
+    setCursor(shown.doubtful, null);
+    labelling.say(`A diagnosis doubts the truth around column ${shown.doubtful}.`);
+  }
   if (shown.rows) find("empty").hidden = true;
   lines.show(shown);
   find("name").textContent = find("name").title = shown.name;
