@@ -3,7 +3,7 @@
 ==============  =================================================================================
 cause           what is true of the segment
 ==============  =================================================================================
-truth doubtful  the truth lies off every edge while the path follows one a few pixels beside it
+truth doubtful  the photo has no contrast along the truth; the path follows an edge beside it
 missed edge     with edges where the truth has none, the path comes back
 starved bin     with typical scores where the truth's bins are starved, it comes back
 misjudged       with typical scores where the truth's bins are well trained, it comes back
@@ -21,9 +21,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal, TypeAlias
 
+import cv2
 import numpy as np
+import numpy.typing as npt
 
-from skyline_viz.arrays import Int
+from skyline_viz.arrays import U8, Int
 from skyline_viz.cost_split import CostSplit, split_cost
 from skyline_viz.counterfactual import CHANGES, Case, Change, scaled
 from skyline_viz.detector import Detection
@@ -43,8 +45,9 @@ REPAIRED = 0.8
 """Share of a segment's columns that have to be right again for the path to have come back."""
 
 _GAP = 5  # right columns that do not end a segment
-_ON_EDGES = 0.7  # share of the path's columns on edges from which on the truth is doubtful,
-_FEW_EDGES, _MORE_EDGES = 0.6, 0.2  # if the truth's share is at most this, and so much less
+_ON_EDGES = 0.7  # share of the path's columns on edges from which on the truth can be doubtful,
+_NO_PEAK, _MORE_PEAK = 0.5, 0.5  # if its contrast stands out no more than this, the path's more
+_BAND = 8  # rows beside a line that its contrast is compared with
 _SPREAD = 1.0  # how much the distance may vary (its median deviation), in pixels
 _BESIDE = 20.0  # distance up to which the path is a few pixels beside, at 519 rows
 
@@ -275,33 +278,52 @@ def _effect(case: Case, change: Change, first: int, last: int) -> float:
 
 
 def _doubtful(case: Case, first: int, last: int) -> tuple[str, float] | None:
-    """What speaks against the truth, and how clearly; None where nothing does."""
+    """What speaks against the truth, and how clearly; None where nothing does.
+
+    The photo itself is asked, in colour, whatever the detector's edges are: along a true line the
+    contrast from above to below is stronger than along its neighbours a few rows off.
+    """
     part = slice(first, last + 1)
-    seen = case.truth.visible[part]
-    columns = np.arange(first, last + 1)
-    edges = case.detection.edges
-    height = len(edges)
-    on, truth_on = (
-        max(
-            float(edges[np.clip(rows[part] + away, 0, height - 1), columns][seen].mean())
-            for away in (-1, 0, 1)
-        )
-        for rows in (case.detection.skyline.rows.astype(np.intp), case.drawn_rows)
-    )
-    away = (case.detection.skyline.rows[part] - case.truth.rows[part])[seen]
+    columns = np.arange(first, last + 1)[case.truth.visible[part]]
+    detection = case.detection
+    height = len(detection.photo)
+    path = detection.skyline.rows.astype(np.int32)
+    away = (path - case.truth.rows)[columns]
     apart = float(np.median(away))
     spread = float(np.median(np.abs(away - apart)))
-    beside = abs(apart) <= scaled(_BESIDE, height) and spread <= scaled(_SPREAD, height)
-    more = on - truth_on
-    sparse = truth_on <= _FEW_EDGES and more >= _MORE_EDGES
-    if not (beside and on >= _ON_EDGES and sparse and len(away) >= 8):
+    near = abs(apart) <= scaled(_BESIDE, height) and spread <= scaled(_SPREAD, height)
+    on = float(detection.edges[path[columns], columns].mean())
+    if not near or on < _ON_EDGES or len(columns) < 8:
+        return None
+    of_truth = _contrast(detection.photo, case.drawn_rows, columns)
+    of_path = _contrast(detection.photo, path, columns)
+    if of_truth > _NO_PEAK or of_path < of_truth + _MORE_PEAK:
         return None
     where = "above" if apart > 0 else "below"
     return (
-        f"The truth is on an edge in {truth_on:.0%} of the columns, and runs {abs(apart):.0f} px "
-        f"{where} a line that is on an edge in {on:.0%} of them: check the annotation.",
-        more,
+        f"The photo has no contrast along the truth, which runs {abs(apart):.0f} px {where} a line "
+        f"that is on an edge in {on:.0%} of the columns: check the annotation.",
+        min(of_path - of_truth, 1.0),
     )
+
+
+def _contrast(photo: U8, rows: Int, columns: npt.NDArray[np.intp]) -> float:
+    """How much the contrast from above to below stands out along a line, about 0 on no edge.
+
+    Mean gradient down the columns, in the channel where it is strongest, on the best of the rows
+    next to the line, over the mean of those 3 to 6 rows off, less 1.
+    """
+    top = max(int(rows[columns].min()) - _BAND, 0)
+    bottom = int(rows[columns].max()) + _BAND
+    part = photo[top : bottom + 1].astype(np.float32)
+    down = np.abs(cv2.Sobel(part, cv2.CV_32F, 0, 1, ksize=3)).reshape(*part.shape).max(axis=2)
+    profile = {
+        off: float(down[(rows[columns] + off - top).clip(0, len(down) - 1), columns].mean())
+        for off in range(-6, 7)
+    }
+    here = max(profile[off] for off in (-2, -1, 0, 1))
+    around = [value for off, value in profile.items() if off >= 3 or off <= -4]
+    return here / max(float(np.mean(around)), 1e-6) - 1
 
 
 def _evidence(case: Case, chosen: Sequence[Change], first: int, last: int, share: float) -> str:
