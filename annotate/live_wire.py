@@ -31,7 +31,7 @@ from skyline_viz.constraints import Anchor, PathError, StraightSpan
 from skyline_viz.detector import Detector
 from skyline_viz.path import cheapest_end, sweep, trace
 from skyline_viz.skyline import Skyline
-from skyline_viz.uncertainty import APART
+from skyline_viz.uncertainty import APART, column_margin
 
 _POOL = ThreadPoolExecutor(2, "sweep")
 
@@ -194,7 +194,7 @@ class LiveWire:
         if self._rows is None or self.blind:
             return []
         row = int(self._rows[column])
-        plan = self._planned(self._without(self._edits.anchor(column, row), column))
+        plan = self._planned(self._edits.anchor(column, row).remove(column))
         self.refresh(plan)
         if not plan.free[column]:
             return []
@@ -243,9 +243,6 @@ class LiveWire:
 
     def _line(self, rows: Int) -> Skyline:
         return Skyline(rows=rows.astype(np.float32), visible=~self._edits.hidden_mask())
-
-    def _without(self, edits: Edits, column: int) -> Edits:
-        return edits.remove(column) if column in edits.anchors else edits
 
     def _through(self, column: int, row: int, lifted: int | None) -> Int:
         """Rows of the line with one more anchor; walks where the column is free."""
@@ -360,10 +357,4 @@ def _measure(
             through[row] = forward[column, row] + backward[column, row] - cost
             if np.isinf(cost):
                 through[row] = np.inf
-        best = through.argmin()
-        second = np.inf
-        for row in range(best - apart):
-            second = min(second, through[row])
-        for row in range(best + apart + 1, height):
-            second = min(second, through[row])
-        margins[column] = max(second - through[best], 0.0)
+        margins[column] = column_margin(through, apart)

@@ -159,7 +159,7 @@ class Case:
                 cost[columns - start, rows] -= config.v * np.maximum(self.typical[0] - low, 0)
         rows_at = detection.skyline.rows.astype(np.intp)
         for column, fixed in ((start, start > 0), (stop, stop < self.truth.width - 1)):
-            if fixed or (self.right[column] and column in (start, stop)):
+            if fixed or self.right[column]:
                 kept = cost[column - start, rows_at[column]]
                 cost[column - start] = np.inf
                 cost[column - start, rows_at[column]] = kept

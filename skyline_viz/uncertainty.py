@@ -64,6 +64,24 @@ def uncertainty(
 
 
 @numba.njit(cache=True, nogil=True)
+def column_margin(through: F64, apart: int) -> float:
+    """Margin of a column: the gap between its best min-marginal and the best one further away.
+
+    Args:
+        through: ``(H,)`` min-marginals, up to a constant.
+        apart: Rows within which two paths count as the same one.
+    """
+    best = through.argmin()
+    second = np.inf
+    for row in range(best - apart):
+        second = min(second, through[row])
+    for row in range(best + apart + 1, len(through)):
+        second = min(second, through[row])
+    margin: float = max(second - through[best], 0.0)
+    return margin
+
+
+@numba.njit(cache=True, nogil=True)
 def _sweep_back(
     columns: F32,
     forward: F64,
@@ -92,12 +110,6 @@ def _sweep_back(
         for row in range(height):
             through[row] = forward[column, row] + after[row]
             detour[column, row] = max(through[row] - best_cost, 0.0)
-        best = through.argmin()
-        second = np.inf
-        for row in range(best - apart):
-            second = min(second, through[row])
-        for row in range(best + apart + 1, height):
-            second = min(second, through[row])
-        margins[column] = max(second - through[best], 0.0)
+        margins[column] = column_margin(through, apart)
         for row in range(height):
             before[row] = after[row] + columns[column, row]
