@@ -6,18 +6,28 @@ from time import perf_counter
 
 from benchmarks.table import markdown
 from skyline_viz.diagnosis import CAUSES, diagnose
-from tests.injected import MAKERS, cases, main_cause
+from tests.injected import FAMILIAR, MAKERS, UNSEEN, cases, main_cause
 
 EACH = 40
 """Cases of each cause."""
 
 
 def confusion(each: int = EACH) -> str:
-    """A confusion matrix of injected and diagnosed causes."""
+    """Confusion matrices of injected and diagnosed causes."""
+    return "\n\n".join(
+        [
+            "## Diagnoses of failures of a known cause, put into rendered scenes",
+            _matrix(UNSEEN, each, "Scenes that nothing was decided by"),
+            _matrix(FAMILIAR, each, "The scenes by which the rules were made"),
+        ]
+    )
+
+
+def _matrix(first_scene: int, each: int, title: str) -> str:
     rows, right, costs = [], 0, []
     for cause in MAKERS:
         said = Counter()
-        for one in cases(cause, each):
+        for one in cases(cause, each, first_scene):
             said[main_cause(one).cause] += 1
             start = perf_counter()
             diagnose(one.detection, one.truth)
@@ -27,8 +37,7 @@ def confusion(each: int = EACH) -> str:
     total = each * len(MAKERS)
     table = markdown(["injected \\ diagnosed", *CAUSES], rows)
     return (
-        f"## Diagnoses of {total} failures of a known cause, put into rendered scenes\n\n"
-        f"{table}\n\n"
+        f"{title}:\n\n{table}\n\n"
         f"The main cause is right in {right} of {total} ({right / total:.1%}). A diagnosis takes "
         f"{statistics.median(costs):.1f} times as long as the detection (median; at most "
         f"{max(costs):.1f})."

@@ -1,8 +1,9 @@
 """What the path would be if one thing were different: the proof behind a diagnosis.
 
 A `Case` is a detection beside its truth. Each of its changes makes the truth line what it should
-have been in one respect (edges, scores, slopes), within a few columns, and the path is searched
-again there. Nothing else changes, so what comes back was due to that one thing.
+have been in one respect (edges, scores, slopes), or takes the other line away, within a few
+columns, and the path is searched again there. Nothing else changes, so what comes back was due to
+that one thing.
 """
 
 from __future__ import annotations
@@ -22,11 +23,13 @@ from skyline_viz.metrics import column_errors
 from skyline_viz.path import cheapest_end, sweep, trace
 from skyline_viz.skyline import Skyline
 
-Change: TypeAlias = Literal["missed edge", "starved bin", "misjudged", "too steep"]
+Change: TypeAlias = Literal["missed edge", "starved bin", "misjudged", "too steep", "cheaper path"]
 """What is made right: edges are put where the truth has none; scores of the truth's edges are
-raised, where their bins are starved, and where they are not; steps of the truth are allowed."""
+raised, where their bins are starved, and where they are not; steps of the truth are allowed; the
+edges of the path are taken away."""
 
 CHANGES: tuple[Change, ...] = ("missed edge", "starved bin", "misjudged", "too steep")
+"""The changes of the truth; that of the path is tried where these do not help."""
 
 REFERENCE_HEIGHT = 519
 """Rows of the photos for which tolerances in pixels are meant; larger photos have larger ones."""
@@ -68,6 +71,16 @@ class Case:
         height = len(self.detection.edges)
         rows: Int = np.floor(self.truth.rows + 0.5).clip(0, height - 1).astype(np.int32)
         return rows
+
+    @cached_property
+    def path_rows(self) -> Int:
+        """``(W,)`` row of the path."""
+        return self.detection.skyline.rows.astype(np.int32)
+
+    @cached_property
+    def near(self) -> int:
+        """Rows within which an edge belongs to a line."""
+        return max(round(scaled(_NEAR, len(self.detection.edges))), int(_NEAR))
 
     @cached_property
     def pixels(self) -> Int:
@@ -112,6 +125,9 @@ class Case:
             around = within.copy()
             around[max(first - 1, 0) : last + 2] = True
             return around & (self.steps > 1)
+        if change == "cheaper path":
+            apart: Bool = np.abs(self.path_rows - self.rows) > self.near
+            return within & apart
         starved = np.zeros(self.truth.width, np.bool_)
         starved[on_edge] = detection.bank.starved[detection.bins[self.pixels[on_edge]]]
         low = np.zeros(self.truth.width, np.bool_)
@@ -154,15 +170,18 @@ class Case:
                 links = columns - start - 1
                 inside = (links >= 0) & (links < len(reach))
                 reach[links[inside]] = np.maximum(reach[links[inside]], steps[inside])
+            elif change == "cheaper path":
+                for away in range(-self.near, self.near + 1):
+                    beside = np.clip(self.path_rows[columns] + away, 0, cost.shape[1] - 1)
+                    cost[columns - start, beside] += config.non_edge_cost
             else:
                 low = detection.scores[self.pixels[columns]]
                 cost[columns - start, rows] -= config.v * np.maximum(self.typical[0] - low, 0)
-        rows_at = detection.skyline.rows.astype(np.intp)
         for column, fixed in ((start, start > 0), (stop, stop < self.truth.width - 1)):
             if fixed or self.right[column]:
-                kept = cost[column - start, rows_at[column]]
+                kept = cost[column - start, self.path_rows[column]]
                 cost[column - start] = np.inf
-                cost[column - start, rows_at[column]] = kept
+                cost[column - start, self.path_rows[column]] = kept
         return start, _cheapest(cost, np.minimum(reach, cost.shape[1] - 1), config.link_weight)
 
     def repaired(self, start: int, rows: Int, first: int, last: int) -> float:
@@ -180,8 +199,7 @@ class Case:
         columns = np.arange(width)
         pixels = index[rows, columns]
         found = rows.copy()
-        near = max(round(_NEAR * height / REFERENCE_HEIGHT), 2)
-        for away in (sign * step for step in range(1, near + 1) for sign in (-1, 1)):
+        for away in (sign * step for step in range(1, self.near + 1) for sign in (-1, 1)):
             moved = np.clip(rows + away, 0, height - 1)
             better = (pixels < 0) & (index[moved, columns] >= 0)
             found[better] = moved[better]

@@ -3,12 +3,13 @@
 ==============  =================================================================================
 cause           what is true of the segment
 ==============  =================================================================================
-truth doubtful  the photo has no contrast along the truth; the path follows an edge beside it
+truth doubtful  the photo has next to no contrast along the truth, and much along the path beside it
 missed edge     with edges where the truth has none, the path comes back
 starved bin     with typical scores where the truth's bins are starved, it comes back
 misjudged       with typical scores where the truth's bins are well trained, it comes back
 too steep       with the truth's steps allowed and free, it comes back
-cheaper path    nothing of it, alone or together, brings it back: the other line is simply cheaper
+cheaper path    nothing of it, alone or together, brings it back; without the path's edges it does,
+                unless there are yet other lines: another line is simply cheaper
 ==============  =================================================================================
 
 The first that holds is the cause. Where only several together bring the path back, the one that
@@ -46,7 +47,8 @@ REPAIRED = 0.8
 
 _GAP = 5  # right columns that do not end a segment
 _ON_EDGES = 0.7  # share of the path's columns on edges from which on the truth can be doubtful,
-_NO_PEAK, _MORE_PEAK = 0.5, 0.5  # if its contrast stands out no more than this, the path's more
+_NO_PEAK, _LESS_PEAK = 0.5, 0.2  # if its contrast stands out no more than this, or than this share
+_MORE_PEAK = 0.5  # of the path's, and the path's stands out by this much more
 _BAND = 8  # rows beside a line that its contrast is compared with
 _SPREAD = 1.0  # how much the distance may vary (its median deviation), in pixels
 _BESIDE = 20.0  # distance up to which the path is a few pixels beside, at 519 rows
@@ -218,7 +220,8 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit, ideal: CostSplit
     chosen: tuple[Change, ...] = ()
     shares = {one: tried(one) for one in usable}
     if doubt := _doubtful(case, first, last):
-        cause, margin, evidence = "truth doubtful", doubt[1], doubt[0]
+        cause, margin, evidence = "truth doubtful", doubt.margin, doubt.evidence
+        trials.append(doubt.trial)
     else:
         alone = [one for one in usable if shares[one] >= REPAIRED]
         if alone:
@@ -234,9 +237,10 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit, ideal: CostSplit
             margin = share - max(others, default=0.0)
             evidence = _evidence(case, chosen, first, last, share)
         else:
-            cause = "cheaper path"
-            margin = REPAIRED - max((one.repaired for one in trials), default=0.0)
-            evidence = _cheaper(path, ideal, first, last, trials)
+            cause, chosen = "cheaper path", ("cheaper path",)
+            best = max((one.repaired for one in trials), default=0.0)
+            margin = REPAIRED - best
+            evidence = _cheaper(path, ideal, first, last, best, tried(*chosen))
     return Segment(
         columns=run,
         mean_error=float(np.nanmean(errors)),
@@ -248,7 +252,7 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit, ideal: CostSplit
         margin=max(float(margin), 0.0),
         path_cost=path.totals(first, last),
         truth_cost=ideal.totals(first, last),
-        line=lines[chosen] if chosen else (first, case.rows[first : last + 1]),
+        line=lines[chosen] if chosen else (first, case.path_rows[first : last + 1]),
     )
 
 
@@ -277,18 +281,28 @@ def _effect(case: Case, change: Change, first: int, last: int) -> float:
     return float(config.v * np.maximum(case.typical[0] - low, 0).sum())
 
 
-def _doubtful(case: Case, first: int, last: int) -> tuple[str, float] | None:
-    """What speaks against the truth, and how clearly; None where nothing does.
+@dataclass(frozen=True)
+class _Doubt:
+    """What speaks against a truth."""
+
+    evidence: str
+    margin: float
+    trial: Trial
+
+
+def _doubtful(case: Case, first: int, last: int) -> _Doubt | None:
+    """What speaks against the truth; None where nothing does.
 
     The photo itself is asked, in colour, whatever the detector's edges are: along a true line the
-    contrast from above to below is stronger than along its neighbours a few rows off.
+    contrast from above to below is stronger than along its neighbours a few rows off. The
+    counterfactual moves the truth, as a whole, to where the path is.
     """
     part = slice(first, last + 1)
     columns = np.arange(first, last + 1)[case.truth.visible[part]]
     detection = case.detection
     height = len(detection.photo)
-    path = detection.skyline.rows.astype(np.int32)
-    away = (path - case.truth.rows)[columns]
+    path = case.path_rows
+    away = path[columns] - case.truth.rows[columns]
     apart = float(np.median(away))
     spread = float(np.median(np.abs(away - apart)))
     near = abs(apart) <= scaled(_BESIDE, height) and spread <= scaled(_SPREAD, height)
@@ -297,13 +311,18 @@ def _doubtful(case: Case, first: int, last: int) -> tuple[str, float] | None:
         return None
     of_truth = _contrast(detection.photo, case.drawn_rows, columns)
     of_path = _contrast(detection.photo, path, columns)
-    if of_truth > _NO_PEAK or of_path < of_truth + _MORE_PEAK:
+    if of_truth > max(_NO_PEAK, _LESS_PEAK * of_path) or of_path < of_truth + _MORE_PEAK:
         return None
-    where = "above" if apart > 0 else "below"
-    return (
-        f"The photo has no contrast along the truth, which runs {abs(apart):.0f} px {where} a line "
-        f"that is on an edge in {on:.0%} of the columns: check the annotation.",
+    moved = float((np.abs(away - apart) <= case.tolerance).mean())
+    if moved < REPAIRED:
+        return None
+    where = "lower" if apart > 0 else "higher"
+    return _Doubt(
+        f"Along the path the photo's contrast is {1 + of_path:.1f} times that of the rows beside "
+        f"it, along the truth {1 + of_truth:.1f} times. With the truth {abs(apart):.0f} px "
+        f"{where}, {moved:.0%} of the columns are right: check the annotation.",
         min(of_path - of_truth, 1.0),
+        Trial(("truth doubtful",), len(columns), moved),
     )
 
 
@@ -357,16 +376,16 @@ def _evidence(case: Case, chosen: Sequence[Change], first: int, last: int, share
 
 
 def _cheaper(
-    path: CostSplit, ideal: CostSplit, first: int, last: int, trials: Sequence[Trial]
+    path: CostSplit, ideal: CostSplit, first: int, last: int, best: float, without: float
 ) -> str:
     """Which stage prefers the path, and by how much."""
     paid, due = path.totals(first, last), ideal.totals(first, last)
     dearer = {stage: due[stage] - paid[stage] for stage in paid}
     stage = max(dearer, key=lambda one: dearer[one])
-    best = max((one.repaired for one in trials), default=0.0)
     total = sum(dearer.values())
+    then = f"Without the path's edges, {without:.0%} of the columns come back"
     return (
         f"The path is {total:.1f} cheaper than the truth here, {dearer[stage]:.1f} of it by "
-        f"{stage.replace('_', ' ')}. "
-        f"No change of the truth brings back more than {best:.0%} of the columns."
+        f"{stage.replace('_', ' ')}. No change of the truth brings back more than {best:.0%} of "
+        f"the columns. {then}{'.' if without >= REPAIRED else '; yet other lines are cheaper.'}"
     )

@@ -62,7 +62,7 @@ def log_diagnosis(
         both = np.concatenate([truth.rows[part], detection.skyline.rows[part]])
         room = height / 40
         boxes.append((first, both.min() - room, last + 1 - first, np.ptp(both) + 2 * room))
-        if segment.cause not in ("cheaper path", "truth doubtful"):
+        if segment.cause != "truth doubtful":
             lines.append(_around(segment))
     corners = np.array(boxes, np.float32).reshape(-1, 4)
     by_size = sorted(range(len(boxes)), key=lambda at: -diagnosis.segments[at].length)

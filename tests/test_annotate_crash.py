@@ -60,7 +60,7 @@ def test_nothing_acknowledged_is_lost_when_the_server_is_killed(tmp_path):
                 if said.status_code == 200:
                     acknowledged.append((said.json()["revision"], said.json()["rows"]))
         killer.join()
-        process.communicate()
+        process.communicate(timeout=20)
         with closing(sqlite3.connect(folder / NAME)) as database:
             kept = {row[0] for row in database.execute("SELECT id FROM operations")}
             assert database.execute("PRAGMA integrity_check").fetchone() == ("ok",)

@@ -144,7 +144,7 @@ def test_the_viewer_gets_frames_lines_and_reasons(tmp_path):
     assert words.startswith("**tower**")
     assert "too steep" in words
     strips = read.last(entities.COUNTERFACTUAL, "LineStrips2D:strips").as_py()
-    repaired = [one for one in diagnosis.segments if one.cause != "cheaper path"]
+    repaired = [one for one in diagnosis.segments if one.cause != "truth doubtful"]
     assert len(strips) == len(repaired)
     labels = read.last(f"{entities.SEGMENTS}/largest", "Boxes2D:labels").as_py()
     assert diagnosis.main.cause in labels

@@ -167,7 +167,7 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
 
 
 def bound(host: str, port: int) -> socket.socket:
-    """A socket that is bound to an address.
+    """A socket that listens on an address.
 
     Raises:
         UsageError: The address is taken, or not one of this machine.
@@ -178,6 +178,7 @@ def bound(host: str, port: int) -> socket.socket:
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind((host, port))
+        listener.listen()  # before the address is told: whoever comes now waits, and is served
     except OSError as error:
         listener.close()
         reason = (error.strerror or str(error)).lower()
