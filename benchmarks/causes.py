@@ -5,7 +5,8 @@ from collections import Counter
 from time import perf_counter
 
 from benchmarks.table import markdown
-from skyline_viz.diagnosis import CAUSES, diagnose
+from skyline_viz.causes import CAUSES
+from skyline_viz.diagnosis import diagnose
 from tests.injected import FAMILIAR, MAKERS, UNSEEN, cases, main_cause
 
 EACH = 40

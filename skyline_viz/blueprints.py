@@ -50,6 +50,9 @@ class Contents:
     diagnosed: bool = False
     """Whether there is a diagnosis with failing segments."""
 
+    stacked_costs: bool = True
+    """Whether the picture of what path and truth pay is in it, where there is a diagnosis."""
+
     compared: str = ""
     """Name of the second detection; nothing without one."""
 
@@ -67,7 +70,7 @@ def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blue
         _tensor_tab(contents),
         *([_bank_tab(contents)] if contents.bank else []),
         _columns_tab(contents),
-        *([_diagnosis_tab()] if contents.diagnosed else []),
+        *([_diagnosis_tab(contents)] if contents.diagnosed else []),
         *([_compare_tab(contents)] if contents.compared else []),
         *([_photos_tab(contents)] if contents.photos > 1 else []),
     ]
@@ -171,7 +174,7 @@ def _columns_tab(contents: Contents) -> rrb.Container:
     return rrb.Vertical(*plots, name="Columns")
 
 
-def _diagnosis_tab() -> rrb.Container:
+def _diagnosis_tab(contents: Contents) -> rrb.Container:
     marks = [f"{entities.SEGMENTS}/**", entities.TRUTH_MISSED, entities.TRUTH_STARVED]
     lines = _with_halos([entities.PATH, entities.TRUTH, entities.COUNTERFACTUAL])
     photo = _photo_view(
@@ -180,7 +183,8 @@ def _diagnosis_tab() -> rrb.Container:
     )
     report = rrb.TextDocumentView(origin=entities.DIAGNOSIS, name="Why")
     costs = _photo_view("What they pay", [entities.STACKED_COSTS])
-    foot = rrb.Horizontal(costs, report, column_shares=[2, 1])
+    plot = costs if contents.stacked_costs else _errors()
+    foot = rrb.Horizontal(plot, report, column_shares=[2, 1])
     return rrb.Vertical(photo, foot, row_shares=[3, 2], name="Diagnosis")
 
 

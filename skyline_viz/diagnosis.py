@@ -20,24 +20,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import U8, Int
+from skyline_viz.causes import Cause
 from skyline_viz.cost_split import CostSplit, split_cost
 from skyline_viz.counterfactual import CHANGES, Case, Change, scaled
 from skyline_viz.detector import Detection
 from skyline_viz.skyline import Skyline, SkylineError
-
-Cause: TypeAlias = Literal[
-    "truth doubtful", "missed edge", "starved bin", "misjudged", "too steep", "cheaper path"
-]
-"""Why a segment went wrong."""
-
-CAUSES: tuple[Cause, ...] = ("truth doubtful", *CHANGES, "cheaper path")
 
 TOLERANCE = 4.0
 """Error up to which a column is right, in pixels at 519 rows."""
@@ -111,6 +105,11 @@ class Segment:
         """Number of columns."""
         return self.columns[1] - self.columns[0] + 1
 
+    @property
+    def total_error(self) -> float:
+        """In pixels, over all columns."""
+        return self.mean_error * self.length
+
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
@@ -130,7 +129,13 @@ class Diagnosis:
     @property
     def main(self) -> Segment | None:
         """The segment with the largest total error."""
-        return max(self.segments, key=lambda one: one.mean_error * one.length, default=None)
+        return max(self.segments, key=lambda one: one.total_error, default=None)
+
+    @property
+    def causes(self) -> tuple[Cause, ...]:
+        """The causes of all segments, each once, that of `main` first."""
+        by_error = sorted(self.segments, key=lambda one: -one.total_error)
+        return tuple(dict.fromkeys(segment.cause for segment in by_error))
 
     def document(self) -> dict[str, Any]:
         """Everything but the lines, for JSON."""
@@ -151,7 +156,7 @@ class Diagnosis:
         lines = [f"**{name}**  "] if name else []
         if self.right:
             return "\n".join(
-                [*lines, f"Right: no column is off by more than {self.tolerance:g} px."]
+                [*lines, f"Right: no column is off by more than {self.tolerance:.3g} px."]
             )
         for one in self.segments:
             first, last = one.columns

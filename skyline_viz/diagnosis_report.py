@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from skyline_viz.causes import CAUSES
 from skyline_viz.config import DetectorConfig, EdgeSource
 from skyline_viz.detector import Detection, Detector
-from skyline_viz.diagnosis import CAUSES, REPAIRED, Diagnosis, diagnose, failing_runs
+from skyline_viz.diagnosis import REPAIRED, Diagnosis, diagnose, failing_runs
 from skyline_viz.evaluation import Test
 from skyline_viz.files import replacing, write_text
 from skyline_viz.metrics import column_errors

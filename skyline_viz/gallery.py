@@ -3,7 +3,7 @@
 A gallery is a folder::
 
     recordings/NAME.rrd   stages of each photo, lean
-    gallery.json          what each detection came to, and what it was made from
+    gallery.json          what each detection came to, why, and what it was made from
     flags.json            which photos are reviewed, and comments
 
 Every file is whole at any time. A photo is detected again only when it, its truth, the filter bank
@@ -22,15 +22,20 @@ from time import monotonic
 from typing import Any
 
 from skyline_viz.batch import Failure, run
+from skyline_viz.causes import Cause
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.detector import Detector
+from skyline_viz.diagnosis import diagnose
+from skyline_viz.diagnosis_recording import log_diagnosis
 from skyline_viz.evaluation import warm_up
 from skyline_viz.files import write_text
 from skyline_viz.recording import log_detection, new_recording
 from skyline_viz.report import listed_segments
 
-VERSION = 1
-"""Of the recordings; another one makes all of them anew."""
+VERSION = 2
+"""Of recordings and gallery.json; all of an earlier one are made anew."""
+
+_FLAGS_VERSION = 1  # of flags.json, which outlives the others
 
 _SAVE_EVERY = 1.0  # seconds
 
@@ -73,6 +78,15 @@ class Entry:
     segments: tuple[tuple[int, int], ...] | None = None
     """First and last column of each run of wrong columns."""
 
+    causes: tuple[Cause, ...] | None = None
+    """Why it went wrong, see `diagnosis.Diagnosis.causes`; nothing where it is right, None without
+    a truth."""
+
+    @property
+    def cause(self) -> Cause | None:
+        """The main cause."""
+        return self.causes[0] if self.causes else None
+
     @property
     def wrong(self) -> str:
         """The segments that went wrong, in words."""
@@ -113,16 +127,18 @@ class Gallery:
         return self.folder / "recordings" / f"{name}.rrd"
 
     def entries(self) -> dict[str, Entry]:
-        """Photos that were done, by name.
+        """Photos that were done, by name; none of those that an earlier version did.
 
         Raises:
             GalleryError: The file is damaged.
         """
         entries = {}
-        for one in _read(self.folder / "gallery.json", "photos"):
-            segments = one.pop("segments", None)
-            pairs = None if segments is None else tuple((int(a), int(b)) for a, b in segments)
-            entry = _made(Entry, self.folder / "gallery.json", one | {"segments": pairs})
+        for one in _read(self.folder / "gallery.json", "photos", VERSION):
+            if one.get("segments") is not None:
+                one["segments"] = tuple((int(a), int(b)) for a, b in one["segments"])
+            if one.get("causes") is not None:
+                one["causes"] = tuple(one["causes"])
+            entry = _made(Entry, self.folder / "gallery.json", one)
             entries[entry.name] = entry
         return entries
 
@@ -133,16 +149,18 @@ class Gallery:
             GalleryError: The file is damaged.
         """
         path = self.folder / "flags.json"
-        return {one.pop("name", ""): _made(Flag, path, one) for one in _read(path, "flags")}
+        said = _read(path, "flags", _FLAGS_VERSION)
+        return {one.pop("name", ""): _made(Flag, path, one) for one in said}
 
     def save_entries(self, entries: Sequence[Entry]) -> None:
         """Write what was done."""
-        _write(self.folder / "gallery.json", "photos", [asdict(entry) for entry in entries])
+        done = [asdict(entry) for entry in entries]
+        _write(self.folder / "gallery.json", "photos", done, VERSION)
 
     def save_flags(self, flags: dict[str, Flag]) -> None:
         """Write what people said."""
         said = [{"name": name, **asdict(flag)} for name, flag in sorted(flags.items())]
-        _write(self.folder / "flags.json", "flags", said)
+        _write(self.folder / "flags.json", "flags", said, _FLAGS_VERSION)
 
     def build(
         self, shots: Sequence[Shot], detector: Detector, workers: int = 0
@@ -205,7 +223,13 @@ def _work(gallery: Gallery, detector: Detector, digest: str, task: _Task) -> Ent
     detection = detector.detect(photo)
     with new_recording(file, task.name) as recording:
         verdict = log_detection(recording, detection, truth, name=task.name, fidelity="lean")
-    return Entry(name=task.name, photo=str(item.photo_path), made_from=made_from, **vars(verdict))
+        causes = None
+        if truth is not None and verdict.a_err is not None:  # it is visible somewhere
+            diagnosis = diagnose(detection, truth)
+            log_diagnosis(recording, diagnosis, detection, truth, task.name, fidelity="lean")
+            causes = diagnosis.causes
+    photo_file = str(item.photo_path)
+    return Entry(task.name, photo_file, made_from, causes=causes, **vars(verdict))
 
 
 def _digest_of(detector: Detector) -> str:
@@ -225,13 +249,16 @@ def _digest_of_files(start: str, item: DatasetItem) -> str:
     return digest.hexdigest()
 
 
-def _read(path: Path, key: str) -> list[dict[str, Any]]:
+def _read(path: Path, key: str, version: int) -> list[dict[str, Any]]:
+    """What a file holds; nothing where an earlier version wrote it."""
     if not path.exists():
         return []
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
         found = document[key]
-        if document["version"] != VERSION or not all(isinstance(one, dict) for one in found):
+        if document["version"] in range(1, version):
+            return []
+        if document["version"] != version or not all(isinstance(one, dict) for one in found):
             raise ValueError
     except (ValueError, LookupError, TypeError) as error:
         raise GalleryError(
@@ -247,6 +274,6 @@ def _made(kind: Any, path: Path, values: dict[str, Any]) -> Any:  # noqa: ANN401
         raise GalleryError(f"{path} is damaged: {error}.") from error
 
 
-def _write(path: Path, key: str, values: list[dict[str, Any]]) -> None:
-    text = json.dumps({"version": VERSION, key: values}, indent=1, ensure_ascii=False)
+def _write(path: Path, key: str, values: list[dict[str, Any]], version: int) -> None:
+    text = json.dumps({"version": version, key: values}, indent=1, ensure_ascii=False)
     write_text(path, text + "\n")

@@ -19,6 +19,7 @@ import rerun.blueprint.table as rrt
 
 from skyline_viz import entities
 from skyline_viz.blueprints import Contents, detection_blueprint
+from skyline_viz.causes import Cause
 from skyline_viz.gallery import Entry, Flag, Gallery
 from skyline_viz.recording import APPLICATION
 from skyline_viz.viewer import LOOPBACK, free_port
@@ -64,13 +65,16 @@ class ServedGallery:
 
 
 @contextmanager
-def served(gallery: Gallery, entries: Sequence[Entry], truth: bool) -> Iterator[ServedGallery]:
+def served(
+    gallery: Gallery, entries: Sequence[Entry], truth: bool, cause: Cause | None = None
+) -> Iterator[ServedGallery]:
     """Serve a gallery for as long as the block lasts.
 
     Args:
         gallery: Its files.
         entries: Its photos, in the order in which to show them.
         truth: Whether there is a truth for any of them.
+        cause: Show only those with this cause, by a filter that can be changed in the viewer.
     """
     files = [gallery.recording(entry.name) for entry in entries]
     flags = gallery.flags()
@@ -81,13 +85,20 @@ def served(gallery: Gallery, entries: Sequence[Entry], truth: bool) -> Iterator[
         client = server.client()
         photos = client.get_dataset(_DATASET)
         layout = Path(folder) / "stages.rbl"
-        contents = Contents(519, 1388, truth=truth, bank=False)  # most photos are wider than high
+        contents = Contents(
+            height=519,
+            width=1388,  # most photos are wider than high
+            truth=truth,
+            bank=False,
+            diagnosed=any(entry.causes for entry in entries),
+            stacked_costs=False,
+        )
         detection_blueprint(contents).save(APPLICATION, layout)
         photos.register_blueprint(layout.as_uri())
         table = client.create_table(_TABLE, _SCHEMA)
         table.append(**_columns(entries, flags, photos))
         cards = Path(folder) / "cards.rbl"
-        _cards(truth).save(_TABLE, cards)
+        _cards(truth, cause).save(_TABLE, cards)
         table.register_blueprint(cards.as_uri())
         address = f"{server.url()}/entry/{table.id}"
         one = ServedGallery(address, gallery, table, flags, client)
@@ -107,6 +118,8 @@ _SCHEMA = pa.schema(
         pa.field("worst", pa.utf8()),
         pa.field("margin", pa.float32()),
         pa.field("wrong", pa.utf8()),
+        pa.field("cause", pa.utf8()),
+        pa.field("causes", pa.utf8()),
         pa.field("reviewed", pa.bool_()),
         pa.field("comment", pa.utf8()),
     ]
@@ -126,6 +139,8 @@ def _columns(
         "worst": [_worst(entry) for entry in entries],
         "margin": [round(entry.margin, 2) for entry in entries],
         "wrong": [entry.wrong or "none" for entry in entries],
+        "cause": [None if one.causes is None else one.cause or "none" for one in entries],
+        "causes": [None if one.causes is None else ", ".join(one.causes) for one in entries],
         "reviewed": [flag.reviewed for flag in said],
         "comment": [flag.comment for flag in said],
     }
@@ -137,7 +152,7 @@ def _worst(entry: Entry) -> str:
     return f"{entry.worst_error:.0f} px at {entry.worst_column}"
 
 
-def _cards(truth: bool) -> rrt.TableBlueprint:
+def _cards(truth: bool, cause: Cause | None) -> rrt.TableBlueprint:
     thumbnail = rrb.Spatial2DView(
         origin="/",
         contents=[f"+ /{entities.PHOTO}", f"+ /{entities.PATH}/**", f"+ /{entities.TRUTH}/**"],
@@ -145,6 +160,7 @@ def _cards(truth: bool) -> rrt.TableBlueprint:
     )
     errors = [
         rrt.Column("a_err", name="A_err (px)"),
+        rrt.Column("cause", name="cause"),
         rrt.Column("worst", name="worst"),
         rrt.Column("wrong", name="wrong"),
     ]
@@ -155,12 +171,16 @@ def _cards(truth: bool) -> rrt.TableBlueprint:
         rrt.Column("reviewed", name="reviewed", column_type=rr.components.Flag, editable=True),
         rrt.Column("comment", name="comment", editable=True),
     ]
+    in_table = [rrt.Column("name"), *columns]
+    if truth:
+        in_table.append(rrt.Column("causes"))  # for filters; too long for cards
     order = rrt.SortBy("a_err", direction="descending")
     if not truth:
         order = rrt.SortBy("margin", direction="ascending")
     return rrt.TableBlueprint(
         card_layout=rrt.CardLayout(title="name", link="photo", fields=columns),
-        table_layout=rrt.TableLayout(columns=[rrt.Column("name"), *columns]),
+        table_layout=rrt.TableLayout(columns=in_table),
         default_layout="cards",
+        filters=[rrt.col("causes").str.contains(cause)] if cause else [],
         sort_by=order,
     )

@@ -108,17 +108,18 @@ def headless_viewer(
             process.wait()
 
 
-def save_picture(source: str | Path, path: Path) -> None:
+def save_picture(source: str | Path, path: Path, window: tuple[int, int] = WINDOW) -> None:
     """Render what a source shows first into a PNG or JPEG file.
 
     Args:
         source: Recording file, or an address.
         path: Where to.
+        window: Width and height of the picture, in pixels.
 
     Raises:
         ViewerError: No viewer, or the picture stays blank.
     """
-    with headless_viewer([source]) as client:
+    with headless_viewer([source], window) as client:
         picture = settled_picture(client)
     _save(picture, path)
 

@@ -133,12 +133,15 @@ def _patient_hand(port: int, stop: threading.Event) -> Hand:
 
 
 def _end_edits(hand: Hand, saved: Callable[[], int], stop: threading.Event) -> None:
-    ended: tuple[int, int] | None = None
+    ended = 0, 0
     while not stop.wait(_LOOK_EVERY):
         counts = _marked(hand), saved()
-        if counts[0] != counts[1] and counts != ended and not _typing(hand):
+        # a filter hides flags: counts may differ for long, for which once is enough, and agree
+        # by chance when a flag has just been set, which changes what is on the screen
+        open_edit = counts[0] != counts[1] or counts[0] != ended[0]
+        if open_edit and counts != ended and not _typing(hand):
             hand.do("press_key", key="Escape")
-            ended = counts  # a filter hides flags, and they differ for long: once is enough
+            ended = counts
 
 
 def _marked(hand: Hand) -> int:

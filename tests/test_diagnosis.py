@@ -10,10 +10,11 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz import entities
+from skyline_viz.causes import CAUSES
 from skyline_viz.cli import main
 from skyline_viz.cost_split import split_cost
 from skyline_viz.counterfactual import Case
-from skyline_viz.diagnosis import CAUSES, REPAIRED, diagnose, failing_runs
+from skyline_viz.diagnosis import REPAIRED, diagnose, failing_runs
 from skyline_viz.diagnosis_recording import log_diagnosis
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline, SkylineError
@@ -148,4 +149,6 @@ def test_the_viewer_gets_frames_lines_and_reasons(tmp_path):
     assert len(strips) == len(repaired)
     labels = read.last(f"{entities.SEGMENTS}/largest", "Boxes2D:labels").as_py()
     assert diagnosis.main.cause in labels
+    assert diagnosis.causes[0] == diagnosis.main.cause
+    assert sorted(diagnosis.causes) == sorted({one.cause for one in diagnosis.segments})
     assert read.array(entities.STACKED_COSTS, "Image:buffer").size > 10_000

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
+from skyline_viz import entities
 from skyline_viz.batch import Failure
 from skyline_viz.commands.gallery import list_flags
 from skyline_viz.commands.inputs import collect
 from skyline_viz.datasets import DatasetItem
-from skyline_viz.gallery import Entry, Flag, Gallery, GalleryError, Shot, by_need
+from skyline_viz.gallery import VERSION, Entry, Flag, Gallery, GalleryError, Shot, by_need
 from tests.recordings import Read, verify
 
 
@@ -55,6 +56,45 @@ def test_a_gallery_holds_a_whole_recording_and_an_entry_a_photo(photos, tmp_path
     assert [one.name for one in by_need(outcomes)] == ["p1", "p2", "p0"]
     assert [one.a_err for one in by_need(outcomes)] == pytest.approx([9, 2, 0])
     assert by_need(outcomes)[0].wrong == "0 to 69"
+
+
+def test_what_went_wrong_is_diagnosed(photos, tmp_path):
+    sv.write_photo(photos / "images" / "p3.png", scene(20))
+    sv.write_photo(photos / "images" / "p4.png", scene(20))
+    unseen = sv.Skyline(np.full(70, 20.0), np.zeros(70, bool))
+    unseen.write_csv(photos / "masks" / "p4.csv")
+    gallery = Gallery(tmp_path / "g")
+    build(gallery, photos)
+    entries = gallery.entries()
+    (cause,) = entries["p1"].causes
+    truth = sv.Skyline.read_csv(photos / "masks" / "p1.csv")
+    detection = sv.Detector().detect(sv.read_photo(photos / "images" / "p1.png"))
+    assert entries["p1"].cause == cause == sv.diagnose(detection, truth).main.cause
+    told = {name: (one.causes, one.cause) for name, one in entries.items() if name != "p1"}
+    right, unknown = ((), None), (None, None)
+    assert told == {"p0": right, "p2": right, "p3": unknown, "p4": unknown}
+    for name, says in (("p1", f"**{cause}**"), ("p0", "Right"), ("p3", None), ("p4", None)):
+        read = Read(gallery.recording(name))
+        assert (entities.DIAGNOSIS in read.entities()) == (says is not None)
+        assert says is None or says in read.last(entities.DIAGNOSIS, "text").as_py()[0]
+        assert (f"{entities.SEGMENTS}/largest" in read.entities()) == (name == "p1")
+        assert entities.STACKED_COSTS not in read.entities()  # too large
+
+
+def test_an_older_gallery_is_done_again_and_keeps_its_reviews(photos, tmp_path):
+    gallery = Gallery(tmp_path / "g")
+    first, _ = build(gallery, photos)
+    gallery.save_flags({"p0": Flag(reviewed=True, comment="fine")})
+    index = gallery.folder / "gallery.json"
+    document = json.loads(index.read_text())
+    for one in document["photos"]:
+        del one["causes"]
+    index.write_text(json.dumps(document | {"version": 1}))
+    assert json.loads((gallery.folder / "flags.json").read_text())["version"] == 1
+    again, written = build(gallery, photos)
+    assert written == ["p0", "p1", "p2"]
+    assert again == first
+    assert gallery.flags() == {"p0": Flag(reviewed=True, comment="fine")}
 
 
 def test_nothing_is_done_twice(photos, tmp_path):
@@ -178,7 +218,7 @@ def test_a_damaged_index_is_one_sentence(photos, tmp_path, content):
 
 
 def test_an_index_with_unknown_fields_is_damaged(tmp_path):
-    text = json.dumps({"version": 1, "photos": [{"name": "a", "colour": "red"}]})
+    text = json.dumps({"version": VERSION, "photos": [{"name": "a", "colour": "red"}]})
     (tmp_path / "gallery.json").write_text(text)
     with pytest.raises(GalleryError, match="damaged"):
         Gallery(tmp_path).entries()

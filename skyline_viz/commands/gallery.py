@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from skyline_viz.batch import Failure
+from skyline_viz.causes import Cause
 from skyline_viz.commands.inputs import Input, collect, output_folder
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, status_after
 from skyline_viz.commands.settings import (
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
 LOOK_EVERY = 0.5
 """Seconds between two looks at what was edited in the viewer."""
 
+PICTURE = (1280, 840)
+"""Width and height of a picture of the cards, in pixels: two rows of them are whole."""
+
 
 @dataclass(frozen=True)
 class GalleryCommand:
@@ -47,6 +51,10 @@ class GalleryCommand:
 
     out: Folder = Path("skyline-gallery")
     """Folder of the gallery: recordings, gallery.json, flags.json. What is there is not redone."""
+
+    cause: Annotated[Cause | None, tyro.conf.arg(metavar="CAUSE")] = None
+    """Show only photos that went wrong by this cause, in any of their failing segments: truth
+    doubtful, missed edge, starved bin, misjudged, too steep or cheaper path."""
 
     list_flags: Switch = False
     """Print what was reviewed and commented, a photo a line, separated by tabs; nothing else."""
@@ -84,10 +92,14 @@ class GalleryCommand:
         entries, failures = build(self.out, inputs, detector, self.workers)
         if not entries:
             return status_after(failures) or SOME_FAILED
+        if self.cause and not any(self.cause in (one.causes or ()) for one in entries):
+            diagnosed = sum(one.causes is not None for one in entries)
+            say(f"none of {counted(diagnosed, 'photo')} with a truth has the cause {self.cause}.")
+            return status_after(failures) or SOME_FAILED
         if self.screenshot:
-            show_picture(self.out, entries, self.screenshot)
+            show_picture(self.out, entries, self.screenshot, self.cause)
         else:
-            show(self.out, entries, window=not self.serve)
+            show(self.out, entries, window=not self.serve, cause=self.cause)
         return status_after(failures)
 
 
@@ -109,12 +121,16 @@ def build(
     return by_need(entries), failures
 
 
-def show(out: Path, entries: Sequence[Entry], *, window: bool) -> None:
+def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: Cause | None = None) -> None:
     """Serve a gallery, in a window where there is a display, until it is closed or Ctrl-C."""
     from skyline_viz.viewer import free_port, has_display, open_viewer  # noqa: PLC0415
     from skyline_viz.viewer_hand import ended_edits  # noqa: PLC0415
 
-    with _served(out, entries) as gallery, _stopped_politely() as stop, ExitStack() as around:
+    with (
+        _served(out, entries, cause) as gallery,
+        _stopped_politely() as stop,
+        ExitStack() as around,
+    ):
         viewer = None
         if window and has_display():
             port = free_port()
@@ -131,12 +147,14 @@ def show(out: Path, entries: Sequence[Entry], *, window: bool) -> None:
             gallery.save_edits()
 
 
-def show_picture(out: Path, entries: Sequence[Entry], path: Path) -> None:
+def show_picture(
+    out: Path, entries: Sequence[Entry], path: Path, cause: Cause | None = None
+) -> None:
     """Draw the cards of a gallery into a file."""
     from skyline_viz.viewer import save_picture  # noqa: PLC0415
 
-    with _served(out, entries) as gallery:
-        save_picture(gallery.address, path)
+    with _served(out, entries, cause) as gallery:
+        save_picture(gallery.address, path, PICTURE)
     print(path)
 
 
@@ -153,12 +171,12 @@ def list_flags(out: Path) -> int:
 
 
 @contextmanager
-def _served(out: Path, entries: Sequence[Entry]) -> Iterator[ServedGallery]:
+def _served(out: Path, entries: Sequence[Entry], cause: Cause | None) -> Iterator[ServedGallery]:
     from skyline_viz.gallery import Gallery  # noqa: PLC0415
     from skyline_viz.gallery_table import served  # noqa: PLC0415
 
     truth = any(entry.a_err is not None for entry in entries)
-    with served(Gallery(out), entries, truth=truth) as gallery:
+    with served(Gallery(out), entries, truth, cause) as gallery:
         yield gallery
 
 

@@ -12,13 +12,19 @@ import pytest
 from PIL import Image
 
 from skyline_viz.cli import main
-from skyline_viz.commands.gallery import build
+from skyline_viz.commands.gallery import PICTURE, build
 from skyline_viz.commands.inputs import collect
 from skyline_viz.commands.settings import make_detector
 from skyline_viz.config import DetectorConfig
 from skyline_viz.gallery import Flag, Gallery
 from skyline_viz.gallery_table import served
-from skyline_viz.viewer import PROGRAM, headless_viewer, settled_picture
+from skyline_viz.viewer import (
+    PROGRAM,
+    headless_viewer,
+    settled_picture,
+    show_tab,
+    tab_names,
+)
 from skyline_viz.viewer_hand import ended_edits
 from tests.e2e.robot import Robot, listening, until, viewer_port
 
@@ -37,11 +43,18 @@ def photos(tmp_path_factory):
     return folder
 
 
+def click_flag(robot):
+    flag = robot.widgets(role="CheckBox", label_contains="Flag")[-1]
+    box = json.loads(robot.do("get_widget", id=flag["id"]))["node"]["bounds"]
+    robot.do("click", pos=[box["x"] + box["w"] / 2, box["y"] + box["h"] / 2])
+
+
 def test_reviewing_commenting_and_looking_inside(photos, tmp_path):
     detector = make_detector(None, DetectorConfig())
     entries, failures = build(tmp_path, collect([photos]), detector, workers=1)
     assert failures == []
     assert [entry.name for entry in entries] == NAMES
+    assert [entry.cause for entry in entries] == ["cheaper path", "too steep", "missed edge"]
     for entry in entries:
         file = Gallery(tmp_path).recording(entry.name)
         subprocess.run([PROGRAM, "rrd", "verify", file], check=True, capture_output=True)
@@ -63,9 +76,7 @@ def test_reviewing_commenting_and_looking_inside(photos, tmp_path):
             assert [one for one in NAMES if robot.says(one)] == NAMES
             for change in (1, -1, 1):  # set it, take it back, set it
                 with ended_edits(port, lambda: gallery.reviewed):
-                    flag = robot.widgets(role="CheckBox", label_contains="Flag")[-1]
-                    box = json.loads(robot.do("get_widget", id=flag["id"]))["node"]["bounds"]
-                    robot.do("click", pos=[box["x"] + box["w"] / 2, box["y"] + box["h"] / 2])
+                    click_flag(robot)
                     until(saved)
                 assert gallery.reviewed == max(change, 0)
             (name,) = Gallery(tmp_path).flags()
@@ -80,9 +91,40 @@ def test_reviewing_commenting_and_looking_inside(photos, tmp_path):
             robot.do("click", content_contains="hazy-1", role="Label")
             until(lambda: viewer.get_state().views)
             until(lambda: robot.says("A_err 132.88") or robot.says("132.88 px"))
+            assert tab_names(viewer)[-1] == "Diagnosis"
+            show_tab(viewer, "Diagnosis")
+            until(lambda: robot.says("cheaper path"))
     again = Gallery(tmp_path).flags()
     assert any(one.reviewed for one in again.values())
     assert any(one.comment == "faint ridge" for one in again.values())
+
+
+def test_one_cause_and_a_review_while_another_is_hidden(photos, tmp_path):
+    detector = make_detector(None, DetectorConfig())
+    entries, _ = build(tmp_path, collect([photos]), detector, workers=1)
+    files = Gallery(tmp_path)
+    files.save_flags({"hazy-1": Flag(reviewed=True)})
+    with (
+        served(files, entries, truth=True, cause="too steep") as gallery,
+        headless_viewer([gallery.address], (1280, 1000)) as viewer,
+    ):
+        port = viewer_port()
+
+        def saved():
+            viewer.take_screenshot()
+            return gallery.save_edits()
+
+        with Robot(port) as robot:
+            until(lambda: robot.says("spires-5") and robot.says("rover-2"))
+            assert robot.says("too steep")
+            assert not robot.says("hazy-1")
+            settled_picture(viewer)
+            with ended_edits(port, lambda: gallery.reviewed):
+                click_flag(robot)
+                until(saved)
+    reviewed = [name for name, flag in files.flags().items() if flag.reviewed]
+    assert len(reviewed) == 2
+    assert "hazy-1" in reviewed
 
 
 def test_a_picture_of_the_cards(photos, tmp_path, capsys):
@@ -90,7 +132,7 @@ def test_a_picture_of_the_cards(photos, tmp_path, capsys):
     assert main(list(map(str, words))) == 0
     assert "3 photos" in capsys.readouterr().out
     with Image.open(tmp_path / "cards.png") as picture:
-        assert picture.size == (1280, 800)
+        assert picture.size == PICTURE
         assert np.asarray(picture)[200:700].std() > 20
 
 
