@@ -6,6 +6,7 @@
 - *Filter bank*: the filters, and which of them the path used.
 - *Columns*: error, margin and costs along the columns.
 - *Diagnosis*: why it went wrong, where it did.
+- *Sweep*: how the path changes with a setting.
 """
 
 from __future__ import annotations
@@ -56,6 +57,9 @@ class Contents:
     compared: str = ""
     """Name of the second detection; nothing without one."""
 
+    swept: str = ""
+    """Timeline of the setting that is swept first; nothing without a sweep."""
+
 
 def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blueprint:
     """Layout of a recording of detections.
@@ -71,6 +75,7 @@ def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blue
         *([_bank_tab(contents)] if contents.bank else []),
         _columns_tab(contents),
         *([_diagnosis_tab(contents)] if contents.diagnosed else []),
+        *([_sweep_tab(contents)] if contents.swept else []),
         *([_compare_tab(contents)] if contents.compared else []),
         *([_photos_tab(contents)] if contents.photos > 1 else []),
     ]
@@ -188,6 +193,25 @@ def _diagnosis_tab(contents: Contents) -> rrb.Container:
     return rrb.Vertical(photo, foot, row_shares=[3, 2], name="Diagnosis")
 
 
+def _sweep_tab(contents: Contents) -> rrb.Container:
+    photo = _photo_view(
+        "Choose a timeline below and drag it. Yellow: path with that setting, magenta: path now"
+        + (", turquoise: truth" if contents.truth else ""),
+        [entities.PHOTO, *_with_halos([entities.PATH, entities.TRUTH, entities.SWEEP_PATH])],
+    )
+    edges = _photo_view("Edges", [entities.SWEEP_EDGES])
+    cost = _photo_view("Nodal cost: bright is cheap", [entities.SWEEP_COST])
+    pictures = rrb.Vertical(photo, rrb.Horizontal(edges, cost), row_shares=[3, 2])
+    plot = rrb.TimeSeriesView(
+        origin=entities.SWEEP_ERROR,
+        name="A_err (px)" if contents.truth else "Mean distance from the present path (px)",
+        plot_legend=rrb.PlotLegend(visible=False),
+    )
+    report = rrb.TextDocumentView(origin=entities.SWEEP_REPORT, name="The setting")
+    side = rrb.Vertical(report, plot, row_shares=[3, 2])
+    return rrb.Horizontal(pictures, side, column_shares=[2, 1], name="Sweep")
+
+
 def _compare_tab(contents: Contents) -> rrb.Container:
     views = []
     stages = {"edges": entities.EDGES, "score": entities.SCORE, "nodal cost": entities.COST}
@@ -250,6 +274,8 @@ def _with_panels(tabs: list[rrb.Container], contents: Contents, active: str) -> 
     time = rrb.TimePanel(state="hidden")
     if contents.photos > 1:
         time = rrb.TimePanel(state="collapsed", timeline=entities.IMAGE, play_state="paused")
+    elif contents.swept:
+        time = rrb.TimePanel(state="collapsed", timeline=contents.swept, play_state="paused")
     elif contents.path_bins:
         time = rrb.TimePanel(state="collapsed", timeline=entities.COLUMN, play_state="paused")
     return rrb.Blueprint(

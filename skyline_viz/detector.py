@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 
 import numpy as np
@@ -140,12 +140,7 @@ class Detector:
         with _timed(seconds, "score"):
             scores = score_at(to_grey(photo), rows, columns, bins, bank.filters)
         with _timed(seconds, "cost"):
-            strength = normalised(tensor.strength, config.strength_percentile)
-            at_edges = edge_cost(scores, strength, config.v)
-            cost = nodal_cost(edges, at_edges, config.non_edge_cost, config.clear_sky)
-            if config.terrain_weight and len(rows):  # without edges, every line is a guess
-                above = terrain_above(photo, edges, bank.terrain)
-                add_blocks(cost, above, config.terrain_weight, BLOCK)
+            cost = self._cost(photo, edges, tensor.strength, scores)
         with _timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
         return Detection(
@@ -168,6 +163,55 @@ class Detector:
             bank=bank,
         )
 
+    def again(self, found: Detection) -> Detection:
+        """Find the skyline of a detection's photo, as `detect` does.
+
+        The stages on which this detector and that of the detection agree are not computed anew:
+        their arrays are the very ones of the detection, and take no time.
+
+        Args:
+            found: What another detector, or this one, found.
+        """
+        config, bank = self.config, self.bank
+        bins_agree = bank.bins == found.bank.bins
+        if not bins_agree or _edge_settings(config) != _edge_settings(found.config):
+            return self.detect(found.photo)
+        seconds = dict.fromkeys(found.seconds, 0.0)
+        scores, cost = found.scores, found.cost
+        if bank is not found.bank:
+            with _timed(seconds, "score"):
+                grey = to_grey(found.photo)
+                rows, columns = found.edge_rows, found.edge_columns
+                scores = score_at(grey, rows, columns, found.bins, bank.filters)
+        alike = replace(config, delta=found.config.delta, link_weight=found.config.link_weight)
+        if bank is not found.bank or alike != found.config:
+            with _timed(seconds, "cost"):
+                cost = self._cost(found.photo, found.edges, found.strength, scores)
+        with _timed(seconds, "path"):
+            path = shortest_path(cost, config.delta, config.link_weight)
+        return replace(
+            found,
+            skyline=Skyline(rows=path.rows.astype(np.float32)),
+            scores=scores,
+            cost=cost,
+            path_cost=path.cost,
+            forward=path.forward,
+            seconds=seconds,
+            config=config,
+            bank=bank,
+        )
+
+    def _cost(self, photo: U8, edges: Bool, strength: F32, scores: F32) -> F32:
+        """Nodal cost ``(H, W)`` from the gradient strengths and scores ``(n,)`` of the edges."""
+        config = self.config
+        strength = normalised(strength, config.strength_percentile)
+        at_edges = edge_cost(scores, strength, config.v)
+        cost = nodal_cost(edges, at_edges, config.non_edge_cost, config.clear_sky)
+        if config.terrain_weight and len(scores):  # without edges, every line is a guess
+            above = terrain_above(photo, edges, self.bank.terrain)
+            add_blocks(cost, above, config.terrain_weight, BLOCK)
+        return cost
+
 
 def candidate_edges(photo: U8, config: DetectorConfig) -> tuple[Bool, tuple[float, float]]:
     """Edge map ``(H, W)`` of a photo without its frame, and the Canny thresholds that made it."""
@@ -183,6 +227,12 @@ def candidate_edges(photo: U8, config: DetectorConfig) -> tuple[Bool, tuple[floa
         if edges[row].mean() > FRAME_SHARE:
             edges[row] = False
     return edges, thresholds
+
+
+def _edge_settings(config: DetectorConfig) -> tuple[object, ...]:
+    """What `candidate_edges` depends on."""
+    thresholds = (config.low_threshold, config.high_threshold, config.fit_thresholds)
+    return (config.edge_source, *thresholds, config.frame)
 
 
 @contextmanager

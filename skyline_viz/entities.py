@@ -107,6 +107,23 @@ STACKED_COSTS = "diagnosis/costs"
 DIAGNOSIS = "diagnosis/report"
 """The diagnosis, in Markdown."""
 
+SWEEP_PATH = "sweep/path"
+"""The path with another value of a setting, on the timeline of that setting; so is all
+of the sweep."""
+
+SWEEP_EDGES = "sweep/edges"
+"""The edge map with it."""
+
+SWEEP_COST = "sweep/cost"
+"""The nodal cost with it, of the cheapest edge pixels of each column."""
+
+SWEEP_ERROR = "sweep/error"
+"""A_err with each value in pixels, a scalar; the mean distance from the present path where there is
+no truth. At ``present`` below it that of the present value."""
+
+SWEEP_REPORT = "sweep/report"
+"""The value, and what it changes, in Markdown."""
+
 OTHER = "other"
 """Parent of everything about a second detection."""
 

@@ -1,14 +1,14 @@
 """How good a detector is on a data set: a filter bank put to the test, and cross-validation."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial, reduce
 from operator import add
 
 import numpy as np
 
 from skyline_viz.batch import Failure, run
-from skyline_viz.config import DetectorConfig, TrainingConfig
+from skyline_viz.config import FILTER_SIZES, DetectorConfig, TrainingConfig
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.detector import Detector
 from skyline_viz.filter_bank import FilterBank
@@ -128,9 +128,44 @@ def train_on(
     Raises:
         ValueError: Every single photo failed, or there is none.
     """
+    total, failures = _gather_all(items, training, seed, workers)
+    return solve(total, seed, training, dataset), failures
+
+
+def train_sizes(
+    items: Sequence[DatasetItem],
+    training: TrainingConfig,
+    *,
+    seed: int = 0,
+    dataset: str = "",
+) -> tuple[list[FilterBank], list[Failure]]:
+    """Learn a filter bank of every size, of `FILTER_SIZES`; each photo is looked at once.
+
+    Takes what `train_on` takes. Works in this process: Gram matrices of the largest filters, 120
+    MB, are dear to send.
+
+    Returns:
+        The banks that `train_on` gives with each size, smallest first, and the photos that failed.
+
+    Raises:
+        ValueError: Every single photo failed, or there is none.
+    """
+    total, failures = _gather_all(items, replace(training, filter_size=FILTER_SIZES[-1]), seed)
+    banks = [
+        solve(total.cropped(size), seed, replace(training, filter_size=size), dataset)
+        for size in FILTER_SIZES
+    ]
+    return banks, failures
+
+
+def _gather_all(
+    items: Sequence[DatasetItem], training: TrainingConfig, seed: int, workers: int = 1
+) -> tuple[GramMatrices, list[Failure]]:
+    """Summed Gram matrices of all photos, and the photos that failed."""
     total = GramMatrices.empty(training)
     failures = []
-    for outcome in run(partial(gather_item, training, seed), items, workers=workers):
+    work = partial(gather_item, training, seed)
+    for outcome in run(work, items, workers=workers, title="training"):
         if isinstance(outcome, Failure):
             failures.append(outcome)
         else:
@@ -138,7 +173,7 @@ def train_on(
     if total.images == 0:
         reason = f", and the first one failed: {failures[0]}" if failures else "."
         raise ValueError(f"training needs at least one photo with a true skyline{reason}")
-    return solve(total, seed, training, dataset), failures
+    return total, failures
 
 
 def gather_item(training: TrainingConfig, seed: int, item: DatasetItem) -> GramMatrices:

@@ -117,7 +117,7 @@ def log_detection(
     height = len(photo)
     shown = shown_pixels(detection, truth) if fidelity == "lean" else None
     recording.log(at(entities.PHOTO), _encoded(photo, fidelity))
-    recording.log(at(entities.EDGES), _encoded_edges(detection.edges))
+    recording.log(at(entities.EDGES), encoded_edges(detection.edges))
     count = log_maps(recording, at, detection, shown)
     unsure = detection.uncertainty()  # while the maps above are being compressed
     verdict = Verdict.of(detection.skyline, unsure.margins, height, truth)
@@ -180,7 +180,7 @@ def log_stages(
     recording.log(entities.PHOTO, _encoded(photo, "full"))
     for stage, values in maps.items():
         if values.dtype == np.bool_:
-            recording.log(stage, _encoded_edges(np.asarray(values, np.bool_)))
+            recording.log(stage, encoded_edges(np.asarray(values, np.bool_)))
         else:
             quantity = QUANTITIES.get(stage, Quantity(stage.rsplit("/", 1)[-1]))
             log_exact_map(recording, stage, quantity, values.astype(np.float32))
@@ -204,8 +204,8 @@ def _encoded(photo: U8, fidelity: Fidelity) -> rr.EncodedImage:
     return rr.EncodedImage(contents=data.tobytes(), media_type="image/png")
 
 
-def _encoded_edges(edges: Bool) -> rr.EncodedImage:
-    """White on black, one bit a pixel: a quarter of any other encoding."""
+def encoded_edges(edges: Bool) -> rr.EncodedImage:
+    """Edge map ``(H, W)`` in white on black, one bit a pixel: a quarter of any other encoding."""
     white = edges.astype(np.uint8) * np.uint8(255)
     how = [cv2.IMWRITE_PNG_BILEVEL, 1, cv2.IMWRITE_PNG_COMPRESSION, 1]
     _, data = cv2.imencode(".png", white, [*how, cv2.IMWRITE_PNG_STRATEGY, _RLE])

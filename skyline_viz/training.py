@@ -47,6 +47,19 @@ class GramMatrices:
     images: int
     """Number of photos."""
 
+    def cropped(self, size: int) -> "GramMatrices":
+        """Sums for smaller filters: the middle of a patch is a patch, and its sums are in there.
+
+        Args:
+            size: Pixels a side of the smaller filter.
+        """
+        own = math.isqrt(self.sums.shape[1] - 1)
+        rim = (own - size) // 2
+        taps = np.arange(own * own).reshape(own, own)[rim : own - rim, rim : own - rim]
+        kept = np.append(taps, own * own)  # and the target
+        sums = self.sums[:, kept[:, None], kept]
+        return GramMatrices(sums, self.samples, self.terrain, self.images)
+
     @classmethod
     def empty(cls, config: TrainingConfig) -> "GramMatrices":
         """Sums over no sample."""
@@ -198,13 +211,14 @@ def _summed(samples: F64, index: Int, bins: Bins) -> tuple[F64, npt.NDArray[np.i
     sums = np.zeros((bins.count, length, length))
     order = np.argsort(index, kind="stable")
     found, starts = np.unique(index[order], return_index=True)
-    for bin_index, members in zip(found, np.split(order, starts[1:]), strict=False):
-        sums[bin_index] = samples[members].T @ samples[members]
     counts = np.bincount(index, minlength=bins.count)
     size = math.isqrt(length - 1)
     taps = np.append(np.arange(size * size).reshape(size, size)[:, ::-1].ravel(), size * size)
     mirrored = bins.mirrored()
-    sums += sums[mirrored[:, None, None], taps[:, None], taps]
+    for bin_index, members in zip(found, np.split(order, starts[1:]), strict=False):
+        product = samples[members].T @ samples[members]
+        sums[bin_index] += product
+        sums[mirrored[bin_index]] += product[taps[:, None], taps]
     return sums, counts + counts[mirrored]
 
 

@@ -19,10 +19,11 @@ class Read:
 
     def __init__(self, path):
         self.values = {}
-        self.times = {}
+        self.chunks = []
         reader = RrdReader(path)
         for chunk in reader.stream():
             batch = chunk.to_record_batch()
+            self.chunks.append((str(chunk.entity_path).lstrip("/"), batch))
             for name, values in zip(batch.schema.names, batch.columns, strict=True):
                 key = str(chunk.entity_path).lstrip("/"), name
                 self.values.setdefault(key, []).extend(values)
@@ -48,6 +49,19 @@ class Read:
             for value in values
         ]
         return [value for value in found if value.as_py() is not None]
+
+    def on(self, timeline, entity, component):
+        """Every logged value of a component by its place on a timeline."""
+        found = {}
+        for place, batch in self.chunks:
+            if place == entity and timeline in batch.schema.names:
+                times = batch.column(timeline).to_pylist()
+                for name in batch.schema.names:
+                    if name.endswith(f":{component}"):
+                        values = batch.column(name).to_pylist()
+                        rows = zip(times, values, strict=True)
+                        found |= {at: value for at, value in rows if value is not None}
+        return found
 
     def last(self, entity, component):
         return self.all(entity, component)[-1]

@@ -10,6 +10,8 @@ from skyline_viz import entities
 from skyline_viz.cli import main
 from tests.recordings import Read, verify
 
+PHOTO = "hills/images/h0.png"
+
 
 @pytest.fixture
 def say(tmp_path, monkeypatch, capsys):
@@ -87,6 +89,42 @@ def test_a_second_detector_beside_the_first(say, hills, tmp_path):
     assert "Compare" in read.view_names
 
 
+def test_a_sweep_has_a_timeline_a_setting_on_which_everything_is_seen(say, hills, tmp_path):
+    truth = hills / "masks" / "h0.csv"
+    status, out, err = say("inspect", PHOTO, "--truth", truth, "--sweep", "--save", "a.rrd")
+    assert (status, err) == (0, "")
+    assert out.count("--sweep-training") == 1
+    verify(tmp_path / "a.rrd")
+    read = Read(tmp_path / "a.rrd")
+    assert "Sweep" in read.view_names
+    for entity in (entities.PHOTO, entities.COST, entities.PATH, entities.TRUTH, entities.ERRORS):
+        for timeline in ("canny_thresholds", "v", "delta", "link_weight", entities.COLUMN):
+            assert (entity, timeline) in read.values
+    assert not any(timeline == "filter_size" for _, timeline in read.values)
+
+
+def test_filters_of_other_sizes_are_learned_without_the_photo(say, hills, tmp_path):
+    photo = hills / "images" / ".." / "images" / "h0.png"
+    words = ["--sweep", "--sweep-training", hills, "--save", "a.rrd"]
+    status, out, _ = say("inspect", photo, *words)
+    assert status == 0
+    assert "--sweep-training" not in out
+    read = Read(tmp_path / "a.rrd")
+    steps = {one.as_py() for one in read.values[entities.SWEEP_PATH, "filter_size"]}
+    assert steps == {3, 5, 7, 9, 11, 13, 15}
+    reports = [one.as_py()[0] for one in read.all(entities.SWEEP_REPORT, "text")]
+    assert any("the same 4 photos of hills, without this one" in one for one in reports)
+
+
+def test_there_has_to_be_another_photo_to_learn_from(say, hills):
+    for number in range(1, 5):
+        (hills / "images" / f"h{number}.png").unlink()
+    words = ["--sweep", "--sweep-training", hills, "--headless"]
+    status, _, err = say("inspect", PHOTO, *words)
+    assert status == 2
+    assert "no photo with a truth but h0 itself" in err
+
+
 def test_a_bad_photo_does_not_stop_the_others(say, hills, tmp_path):
     (hills / "images" / "h1.png").write_bytes(b"no photo")
     status, out, err = say("inspect", hills, "--headless")
@@ -110,6 +148,9 @@ def test_nothing_is_written_when_no_photo_can_be_read(say, tmp_path):
         (["inspect", "hills", "--truth", "x.csv", "--headless"], "belongs to one photo"),
         (["inspect", "hills", "--screenshot", "a.gif"], "end in .png or .jpg"),
         (["inspect", "hills", "--compare", "gone.npz", "--headless"], "gone.npz does not exist"),
+        (["inspect", "hills", "--sweep", "--headless"], "--sweep belongs to one photo, and there"),
+        (["inspect", PHOTO, "--sweep-training", "hills", "--headless"], "not asked for"),
+        (["inspect", PHOTO, "--sweep", "--sweep-training", "x", "--headless"], "x does not exist"),
         (["gallery"], "which data set"),
         (["gallery", "--list-flags", "--out", "nowhere"], "nowhere is no gallery"),
         (["gallery", "hills", "--serve", "--screenshot", "a.png"], "exclude each other"),

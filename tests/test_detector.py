@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from skyline_viz.bins import Bins
 from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import edge_cost, normalised
 from skyline_viz.detector import Detector, candidate_edges
@@ -343,6 +344,43 @@ def test_a_detector_can_be_sent_to_another_process(detector):
     assert sent.config == detector.config
     assert np.array_equal(sent.bank.filters, detector.bank.filters)
     assert_same(sent.detect(photo), detector.detect(photo))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"delta": 2},
+        {"link_weight": 0.4},
+        {"v": 0.9},
+        {"clear_sky": 0.0, "terrain_weight": 0.0},
+        {"strength_percentile": 80.0},
+        {"non_edge_cost": 1.5},
+        {"frame": 0},
+        {"edge_source": "grey"},
+        {"low_threshold": 20.0, "high_threshold": 90.0, "fit_thresholds": False},
+    ],
+    ids=str,
+)
+def test_detecting_again_gives_what_detecting_gives(detector, changes):
+    photo, _ = mountains()
+    found = detector.detect(photo)
+    other = Detector(config=replace(DetectorConfig(), **changes))
+    assert_same(other.again(found), other.detect(photo))
+    assert other.again(found).config == other.config
+
+
+def test_detecting_again_with_another_bank(detector):
+    photo, _ = mountains()
+    found = detector.detect(photo)
+    bins = Bins(coherences=2, strengths=3, orientations=4)
+    taps = np.random.default_rng(0)
+    for other in (Bins(), bins):
+        filters = taps.normal(0, 0.1, (other.count, 5, 5))
+        bank = FilterBank(filters, np.full(other.count, 99), bins=other)
+        again = Detector(bank).again(found)
+        assert_same(again, Detector(bank).detect(photo))
+        assert again.bank is bank
 
 
 def test_the_given_bank_scores():

@@ -14,8 +14,8 @@ from rich.console import Console
 
 import skyline_viz as sv
 from skyline_viz import evaluation, evaluation_report
-from skyline_viz.config import DetectorConfig, TrainingConfig
-from skyline_viz.evaluation import cross_validate, evaluate, train_on
+from skyline_viz.config import FILTER_SIZES, DetectorConfig, TrainingConfig
+from skyline_viz.evaluation import cross_validate, evaluate, train_on, train_sizes
 from skyline_viz.results import PhotoResult, Summary, worst
 
 HEIGHT, WIDTH = 64, 96
@@ -225,6 +225,18 @@ def test_the_tables_name_figures_and_photos():
     text = console.file.getvalue()
     for word in ("6.67 px", "50.0%", "Jungfrau", "12.35 px (gross miss)", "77", "0.500 s"):
         assert word in text
+
+
+def test_banks_of_all_sizes_are_those_trained_one_by_one(items, tmp_path):
+    gone = sv.DatasetItem("gone", tmp_path / "gone.png", items[0].truth_path)
+    banks, failures = train_sizes([*items, gone], TrainingConfig(), dataset="hills")
+    assert [failure.name for failure in failures] == ["gone"]
+    assert [bank.size for bank in banks] == list(FILTER_SIZES)
+    for bank in banks:
+        alone, _ = train_on(items, TrainingConfig(filter_size=bank.size), dataset="hills")
+        assert np.array_equal(bank.filters, alone.filters)
+        assert np.array_equal(bank.terrain, alone.terrain)
+        assert bank.provenance == alone.provenance
 
 
 def test_the_summary_as_json(tmp_path):

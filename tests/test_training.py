@@ -386,3 +386,13 @@ def test_a_visible_row_outside_is_refused():
 def test_what_is_no_photo_is_refused(photo):
     with pytest.raises(TypeError, match="uint8"):
         gather(photo, Skyline(np.ones(9)), 0, CONFIG)
+
+
+@pytest.mark.parametrize("size", [3, 7, 15])
+def test_the_sums_of_small_filters_are_in_those_of_large_ones(size):
+    largest = gather(*mountains(), 0, replace(CONFIG, filter_size=15))
+    own = gather(*mountains(), 0, replace(CONFIG, filter_size=size))
+    cropped = largest.cropped(size)
+    assert np.array_equal(cropped.sums, own.sums)
+    assert np.array_equal(cropped.samples, own.samples)
+    assert np.array_equal(cropped.terrain, own.terrain)

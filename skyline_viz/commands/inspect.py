@@ -12,17 +12,18 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from skyline_viz.batch import Failure, sentence
-from skyline_viz.commands.inputs import Input, collect
+from skyline_viz.commands.inputs import Input, collect, with_truth
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, status_after
 from skyline_viz.commands.settings import (
     BankFile,
+    OptionalFolder,
     Preset,
     Switch,
     check_picture,
     config_of,
     make_detector,
 )
-from skyline_viz.config import DetectorConfig
+from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.progress import ProgressBar
 
 if TYPE_CHECKING:
@@ -30,8 +31,10 @@ if TYPE_CHECKING:
 
     from skyline_viz.blueprints import Contents
     from skyline_viz.detector import Detection, Detector
+    from skyline_viz.filter_bank import FilterBank
     from skyline_viz.recording import Fidelity
     from skyline_viz.skyline import Skyline
+    from skyline_viz.sweep import Sweep
 
 FULL_AT_MOST = 3
 """Photos in one recording that are kept in full; more are lean, see `recording.Fidelity`."""
@@ -72,6 +75,12 @@ class Inspect:
     compare: Annotated[str | None, tyro.conf.arg(metavar="NAME")] = None
     """A second detector beside the first: default, paper, or the file of a filter bank."""
 
+    sweep: Switch = False
+    """Sweep single settings of one photo along timelines: drag one, and see the path change."""
+
+    sweep_training: OptionalFolder = None
+    """Data set to train filters of other sizes on, for --sweep; the photo itself is left out."""
+
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
 
@@ -89,17 +98,22 @@ class Inspect:
         inputs = collect(self.photos)
         if self.truth and len(inputs) > 1:
             raise UsageError(f"--truth belongs to one photo, and there are {len(inputs)}.")
+        if self.sweep and len(inputs) > 1:
+            raise UsageError(f"--sweep belongs to one photo, and there are {len(inputs)}.")
         detector = make_detector(self.bank, self.config)
         other = None if self.compare is None else self._second(self.compare)
         failures: list[Failure] = []
+        sizes = self._train_sizes(inputs[0], detector, failures) if self.sweep_training else []
         with self._folder() as folder:
-            files = self._record(inputs, detector, other, folder, failures)
+            files = self._record(inputs, detector, other, sizes, folder, failures)
             if files:
                 self._show(files)
         return status_after(failures) or (GOOD if files else SOME_FAILED)
 
     def _check_targets(self) -> None:
         check_picture(self.screenshot)
+        if self.sweep_training and not self.sweep:
+            raise UsageError("--sweep-training trains filters for --sweep, which is not asked for.")
         named = ("save", "screenshot", "serve", "connect", "headless")
         chosen = [f"--{name}" for name in named if getattr(self, name)]
         if len(chosen) > 1:
@@ -133,6 +147,7 @@ class Inspect:
         inputs: Sequence[Input],
         detector: Detector,
         other: Detector | None,
+        sizes: Sequence[FilterBank],
         folder: Path,
         failures: list[Failure],
     ) -> list[Path]:
@@ -153,7 +168,7 @@ class Inspect:
                     for step, one in enumerate(group):
                         recording.set_time("image", sequence=step)
                         try:
-                            logged = self._log(recording, one, detector, other, len(group))
+                            logged = self._log(recording, one, detector, other, sizes, len(group))
                             contents = contents or logged
                         except of_a_photo as problem:
                             failures.append(Failure(one.name, sentence(problem)))
@@ -168,6 +183,7 @@ class Inspect:
         one: Input,
         detector: Detector,
         other: Detector | None,
+        sizes: Sequence[FilterBank],
         together: int,
     ) -> Contents:
         """Log a photo of `together` ones, and say what the recording now holds."""
@@ -184,6 +200,7 @@ class Inspect:
         alone = together == 1
         if alone:  # what is logged below is there in every column
             recording.set_time("column", sequence=0)
+        sweeps = _begin_sweeps(recording, found, sizes) if self.sweep else []
         verdict = log_detection(recording, found, truth, name=one.name, fidelity=fidelity)
         if other:
             second = other.detect(photo)
@@ -194,6 +211,8 @@ class Inspect:
         if alone:
             recording.disable_timeline("column")
             log_path_bins(recording, found)
+        if sweeps:
+            _log_sweeps(recording, sweeps, found, truth)
         error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
         print(f"{one.name}{error}  margin {verdict.margin:.3g}")
         height, width = found.edges.shape
@@ -206,7 +225,26 @@ class Inspect:
             path_bins=alone,
             photos=together,
             compared=self.compare or "",
+            swept=sweeps[0].timeline if sweeps else "",
         )
+
+    def _train_sizes(
+        self, one: Input, detector: Detector, failures: list[Failure]
+    ) -> list[FilterBank]:
+        """Filter banks of all sizes, learned from a data set without the photo."""
+        from skyline_viz.datasets import open_dataset  # noqa: PLC0415
+        from skyline_viz.evaluation import train_sizes  # noqa: PLC0415
+
+        assert self.sweep_training is not None
+        dataset = open_dataset(self.sweep_training)
+        own = one.item.photo_path.resolve()
+        others = [item for item in with_truth(dataset) if item.photo_path.resolve() != own]
+        if not others:
+            raise UsageError(f"{dataset.name} holds no photo with a truth but {one.name} itself.")
+        training = TrainingConfig(bins=detector.bank.bins, detector=self.config)
+        banks, failed = train_sizes(others, training, dataset=dataset.name)
+        failures += failed
+        return banks
 
     def _truth_of(self, one: Input) -> Skyline | None:
         if self.truth is None:
@@ -261,3 +299,29 @@ def _log_diagnosis(
         return False
     log_diagnosis(recording, diagnosis, found, truth, name)
     return True
+
+
+def _begin_sweeps(
+    recording: rr.RecordingStream, found: Detection, sizes: Sequence[FilterBank]
+) -> list[Sweep]:
+    """Choose what to sweep; what is logged from now on is there on all of the timelines."""
+    from skyline_viz.sweep import setting_sweeps, size_sweep  # noqa: PLC0415
+
+    sweeps = setting_sweeps(found)
+    if sizes:
+        sweeps.append(size_sweep(found, sizes))
+    else:
+        print("The filter size is not swept: name a data set to train on with --sweep-training.")
+    for sweep in sweeps:
+        recording.set_time(sweep.timeline, sequence=sweep.steps[0].at)
+    return sweeps
+
+
+def _log_sweeps(
+    recording: rr.RecordingStream, sweeps: list[Sweep], found: Detection, truth: Skyline | None
+) -> None:
+    """Detect with all values, and log it."""
+    from skyline_viz.sweep_recording import log_sweeps  # noqa: PLC0415
+
+    with ProgressBar(sum(len(sweep.steps) for sweep in sweeps), "values") as bar:
+        log_sweeps(recording, sweeps, found, truth, bar.advance)

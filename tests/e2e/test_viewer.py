@@ -122,6 +122,31 @@ def test_the_column_timeline_frames_the_filter_that_the_path_used(viewer):
             assert robot.says(expected)
 
 
+def test_scrubbing_a_setting_moves_the_path(tmp_path):
+    file = tmp_path / "sweep.rrd"
+    photo, truth = SAMPLES / "images" / "hazy-1.jpg", SAMPLES / "masks" / "hazy-1.png"
+    words = ["inspect", photo, "--truth", truth, "--sweep", "--save", file]
+    assert main(list(map(str, words))) == 0
+    others = {port for _, _, port in listening()}
+    with headless_viewer([file]) as client, Robot(viewer_port(others)) as robot:
+        assert tab_names(client) == [*TABS, "Diagnosis", "Sweep"]
+        show_tab(client, "Sweep")
+        pictures, yellow = [], []
+        for setting, at, said in (
+            ("canny_thresholds", 40, "Canny thresholds 6 and 26.4"),
+            ("canny_thresholds", 100, "Canny thresholds 15 and 66"),
+            ("v", 100, "v 1"),
+        ):
+            client.set_time(setting, sequence=at, play_state="paused")
+            assert until(lambda said=said: robot.says(said))
+            pictures.append(np.asarray(settled_picture(client))[95:485, 75:775])
+            far = np.abs(pictures[-1].astype(int) - (0xFF, 0xD4, 0x00))
+            yellow.append((far < 30).all(axis=2).sum())
+        assert min(yellow[0], yellow[2]) > 500 > 10 * yellow[1]  # the present path lies on its own
+        assert (pictures[0] != pictures[2]).any(axis=2).sum() > 2000
+        assert [report for view in client.get_state().views for report in view.reports] == []
+
+
 def test_a_viewer_that_runs_is_sent_the_recording():
     others = {port for _, _, port in listening()}
     with headless_viewer() as client:

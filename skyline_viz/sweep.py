@@ -1,0 +1,165 @@
+"""How the path changes with one setting: which values to try, and the detection with each.
+
+A sweep is centred on the settings of a detection. Its steps are whole numbers, because that is what
+a timeline of the viewer counts; what they count is chosen so that they read well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from skyline_viz.config import DetectorConfig
+from skyline_viz.detector import Detection, Detector
+from skyline_viz.edges import LOWEST_FACTOR
+from skyline_viz.filter_bank import FilterBank
+
+_MOST = {"thresholds": 1e5, "link_weight": 1e6, "delta": 100_000}  # what `DetectorConfig` takes
+_LINK = 0.1  # what a link weight of 0 is swept up from
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """One value of a setting."""
+
+    at: int
+    """Where it is on the timeline."""
+
+    value: str
+    """The exact value, in words."""
+
+    detector: Detector
+    """A detector with this value, and all else as it was."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """The values of one setting."""
+
+    timeline: str
+    """The setting, as its timeline is called."""
+
+    title: str
+    """The setting in words."""
+
+    counts: str
+    """What the timeline counts."""
+
+    steps: tuple[Step, ...]
+    """The values, smallest first."""
+
+    present: int
+    """The step that the detection's own value is at."""
+
+    now: str
+    """That value, in words."""
+
+    note: str = ""
+    """What else there is to know; a sentence, or nothing."""
+
+    def detections(self, found: Detection) -> Iterator[tuple[Step, Detection]]:
+        """Detect with each value. Stages that the setting leaves as they are are not repeated.
+
+        Args:
+            found: The detection around which the sweep was made.
+        """
+        for step in self.steps:
+            yield step, step.detector.again(found)
+
+
+def setting_sweeps(found: Detection) -> list[Sweep]:
+    """Sweeps of Canny thresholds, ``v``, ``delta`` and link weight around a detection."""
+    return [_thresholds(found), _v(found), _delta(found), _link_weight(found)]
+
+
+def size_sweep(found: Detection, banks: Sequence[FilterBank]) -> Sweep:
+    """Sweep of the filter size.
+
+    Args:
+        found: The detection.
+        banks: Filter banks of several sizes, trained on the same photos.
+    """
+    made, own = banks[0].provenance, found.bank.provenance
+    steps = {
+        bank.size: (f"{bank.size} x {bank.size} px", Detector(bank, found.config)) for bank in banks
+    }
+    note = (
+        f"All sizes learned from the same {_photos(made.images)} of {made.dataset}, without this "
+        f"one; the present filters from {_photos(own.images)} of "
+        f"{own.dataset or 'an unnamed data set'}."
+    )
+    return Sweep(
+        "filter_size",
+        "Filter size",
+        "pixels a side",
+        _in_order(steps),
+        found.bank.size,
+        f"{found.bank.size} x {found.bank.size} px",
+        note,
+    )
+
+
+def _thresholds(found: Detection) -> Sweep:
+    """30 to 200 % of the thresholds that were used: as low as fitting lowers those of the paper."""
+    steps = {}
+    for percent in range(round(100 * LOWEST_FACTOR), 201, 10):
+        low, high = (min(one * (percent / 100), _MOST["thresholds"]) for one in found.thresholds)
+        config = replace(found.config, fit_thresholds=False, low_threshold=low, high_threshold=high)
+        steps[percent] = f"{low:.4g} and {high:.4g}", Detector(found.bank, config)
+    return Sweep(
+        "canny_thresholds",
+        "Canny thresholds",
+        "percent of the present ones",
+        _in_order(steps),
+        100,
+        steps[100][0],
+    )
+
+
+def _v(found: Detection) -> Sweep:
+    """0 to 1; the present value takes the place of one that is within half a percent of it."""
+    values = [*(percent / 100 for percent in range(0, 101, 5)), found.config.v]
+    return _numbers(found, "v", "v", 100, "hundredths", values)
+
+
+def _delta(found: Detection) -> Sweep:
+    """1 to 12 px, or to twice the present value in a dozen steps where that is more."""
+    present = found.config.delta
+    stride = max(1, round(present / 6))
+    values = [*range(stride, 12 * stride + 1, stride), present]
+    top = _MOST["delta"]
+    return _numbers(found, "delta", "delta", 1, "pixels", [min(one, top) for one in values], " px")
+
+
+def _link_weight(found: Detection) -> Sweep:
+    """0 to three times the present value."""
+    present = found.config.link_weight
+    unit = present or _LINK
+    values = [min(unit * fifths / 5, _MOST["link_weight"]) for fifths in range(16)]
+    return _numbers(found, "link_weight", "Link weight", 1000, "thousandths", [*values, present])
+
+
+def _numbers(
+    found: Detection,
+    field: str,
+    title: str,
+    scale: int,
+    counts: str,
+    values: Iterable[float],
+    unit: str = "",
+) -> Sweep:
+    """Sweep of a number of `DetectorConfig`; of values at the same step the last one counts."""
+    steps = {}
+    for value in values:
+        config: DetectorConfig = replace(found.config, **{field: value})  # type: ignore[arg-type]
+        steps[round(scale * value)] = f"{value:.4g}{unit}", Detector(found.bank, config)
+    present = round(scale * getattr(found.config, field))
+    return Sweep(field, title, counts, _in_order(steps), present, steps[present][0])
+
+
+def _in_order(steps: dict[int, tuple[str, Detector]]) -> tuple[Step, ...]:
+    return tuple(Step(at, *one) for at, one in sorted(steps.items()))
+
+
+def _photos(count: int) -> str:
+    return f"{count} photo" if count == 1 else f"{count} photos"
