@@ -8,7 +8,8 @@ import numpy.typing as npt
 from matplotlib import colormaps
 
 from skyline_viz.arrays import F32, U8, Bool
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
+from skyline_viz.detector import FilterDetection
 from skyline_viz.skyline import Skyline
 from skyline_viz.tensor import tensor_map
 
@@ -96,6 +97,8 @@ def stage(detection: Detection, name: str) -> bytes:
     else:
         at_edges = detection.scores
         if name == "bin":
+            if not isinstance(detection, FilterDetection):
+                raise KeyError(name)
             count = detection.bank.bins.orientations
             at_edges = (detection.bins % count / count).astype(np.float32)
         values = np.zeros(shape, np.float32)

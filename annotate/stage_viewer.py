@@ -7,7 +7,7 @@ import tempfile
 import threading
 from pathlib import Path
 
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
 from skyline_viz.recording import log_detection, new_recording
 from skyline_viz.skyline import Skyline
 from skyline_viz.viewer import serve

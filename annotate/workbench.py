@@ -15,7 +15,8 @@ from annotate.doubts import columns_of
 from annotate.labels import Label
 from annotate.session import Session, read_whole
 from annotate.store import Card, Photo, Store
-from skyline_viz.detector import Detection, Detector
+from skyline_viz.detection import Detection
+from skyline_viz.detector import Detector
 
 Order = Literal["name", "margin", "random"]
 """In which order photos are labelled: by name, the least certain first, or shuffled."""

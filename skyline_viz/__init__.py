@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from skyline_viz.config import DetectorConfig, TrainingConfig
     from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
     from skyline_viz.datasets import Dataset, DatasetError, DatasetItem, open_dataset
-    from skyline_viz.detector import Detection, Detector
+    from skyline_viz.detection import Detection
+    from skyline_viz.detector import Detector, FilterDetection
     from skyline_viz.diagnosis import Diagnosis, diagnose
     from skyline_viz.filter_bank import FilterBank, FilterBankError
     from skyline_viz.metrics import a_err, column_errors, is_gross_miss, segmentation_accuracy
@@ -41,8 +42,9 @@ _HOME = {
     "Dataset": "datasets",
     "DatasetError": "datasets",
     "DatasetItem": "datasets",
-    "Detection": "detector",
+    "Detection": "detection",
     "Detector": "detector",
+    "FilterDetection": "detector",
     "DetectorConfig": "config",
     "Diagnosis": "diagnosis",
     "FilterBank": "filter_bank",
@@ -81,6 +83,7 @@ __all__ = [
     "Diagnosis",
     "FilterBank",
     "FilterBankError",
+    "FilterDetection",
     "PathError",
     "PhotoError",
     "Skyline",

@@ -13,7 +13,7 @@ from skyline_viz import entities
 from skyline_viz.arrays import U8, Int
 from skyline_viz.bank_pictures import BankPictures, bin_label, cell_box, draw_bank
 from skyline_viz.bins import Bins
-from skyline_viz.detector import Detection
+from skyline_viz.detector import FilterDetection
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.overlay import PATH
 
@@ -44,7 +44,7 @@ def log_filter_bank(recording: rr.RecordingStream, bank: FilterBank, *, under: s
         recording.log(f"{place}/cells", context, cells, static=True)
 
 
-def log_path_bins(recording: rr.RecordingStream, detection: Detection) -> None:
+def log_path_bins(recording: rr.RecordingStream, detection: FilterDetection) -> None:
     """Log which bin the path used, column by column, on the timeline `entities.COLUMN`.
 
     Scrubbing that timeline moves a point along the path, frames its filter in the mosaic, and
@@ -79,7 +79,7 @@ def log_path_bins(recording: rr.RecordingStream, detection: Detection) -> None:
     recording.send_columns(entities.BANK_USED, times, words)
 
 
-def path_bins(detection: Detection) -> Int:
+def path_bins(detection: FilterDetection) -> Int:
     """Bin that the path used in each column, ``(W,)``; -1 where it crosses no edge."""
     height, width = detection.edges.shape
     rows = detection.skyline.rows.astype(np.intp)
@@ -111,7 +111,7 @@ def _drawn(bank: FilterBank) -> BankPictures:
     return draw_bank(bank)
 
 
-def _about(detection: Detection, column: int, index: int) -> str:
+def _about(detection: FilterDetection, column: int, index: int) -> str:
     row = int(detection.skyline.rows[column])
     cost = float(detection.cost[row, column])
     lines = [f"**Column {column}**, row {row}  "]
@@ -132,7 +132,7 @@ def _about(detection: Detection, column: int, index: int) -> str:
     return "\n".join([*lines, f"Nodal cost {cost:.3f}"])
 
 
-def _edge_pixel(detection: Detection, row: int, column: int) -> int:
+def _edge_pixel(detection: FilterDetection, row: int, column: int) -> int:
     """Place of an edge pixel in the arrays ``(n,)``, which run row by row."""
     first = int(np.searchsorted(detection.edge_rows, row))
     last = int(np.searchsorted(detection.edge_rows, row, side="right"))

@@ -39,6 +39,12 @@ class Contents:
     truth: bool = False
     """Whether there is a truth."""
 
+    filters: bool = True
+    """Whether tensor and bins are in it: those of our detector are, other methods have none."""
+
+    maps: tuple[str, ...] = ()
+    """Names of the further maps of another method."""
+
     bank: bool = True
     """Whether the filter bank is in it."""
 
@@ -70,8 +76,8 @@ def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blue
     """
     tabs = [
         _first_tab(contents),
-        _stages_tab(contents, _figure_1(), "Stages"),
-        _tensor_tab(contents),
+        _stages_tab(contents, _figure_1(contents), "Stages"),
+        *([_tensor_tab(contents)] if contents.filters else []),
         *([_bank_tab(contents)] if contents.bank else []),
         _columns_tab(contents),
         *([_diagnosis_tab(contents)] if contents.diagnosed else []),
@@ -122,14 +128,18 @@ def _stages_tab(contents: Contents, stages: dict[str, list[str]], name: str) -> 
     return _grid(contents, views, name)
 
 
-def _figure_1() -> dict[str, list[str]]:
+def _figure_1(contents: Contents) -> dict[str, list[str]]:
+    views = {
+        "Photo": [entities.PHOTO],
+        "Edges": [entities.EDGES],
+        "Score: bright like skyline": [entities.SCORE],
+        **({"Gradient strength": [entities.STRENGTH]} if contents.filters else {}),
+        **{name.capitalize(): [f"{entities.MAPS}/{name}"] for name in contents.maps},
+        "Nodal cost: bright is cheap": [entities.COST],
+        "Path": [entities.PHOTO, *_with_halos()],
+    }
     return {
-        "(a) Photo": [entities.PHOTO],
-        "(b) Edges": [entities.EDGES],
-        "(c) Score: bright like skyline": [entities.SCORE],
-        "(d) Gradient strength": [entities.STRENGTH],
-        "(e) Nodal cost: bright is cheap": [entities.COST],
-        "(f) Path": [entities.PHOTO, *_with_halos()],
+        f"({'abcdefghij'[at]}) {title}": shown for at, (title, shown) in enumerate(views.items())
     }
 
 

@@ -12,7 +12,7 @@ from matplotlib import colormaps
 
 from skyline_viz import entities
 from skyline_viz.arrays import F64
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
 from skyline_viz.metrics import column_errors
 from skyline_viz.overlay import HALO, Colour
 from skyline_viz.skyline import Skyline
@@ -127,7 +127,7 @@ def path_costs(detection: Detection) -> tuple[F64, F64]:
     """Nodal cost of the path in each column, and link cost paid to reach it, each ``(W,)``."""
     rows = detection.skyline.rows.astype(np.intp)
     node = detection.cost[rows, np.arange(len(rows))].astype(np.float64)
-    link = detection.config.link_weight * np.abs(np.diff(rows, prepend=rows[:1]))
+    link = detection.link_weight * np.abs(np.diff(rows, prepend=rows[:1]))
     return node, link
 
 

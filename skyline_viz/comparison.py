@@ -7,7 +7,7 @@ import rerun as rr
 
 from skyline_viz import entities
 from skyline_viz.column_views import ALTERNATIVE_RADIUS, curve, log_line
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
 from skyline_viz.overlay import ALTERNATIVE
 from skyline_viz.recording import Fidelity, log_detection
 from skyline_viz.report import listed_segments

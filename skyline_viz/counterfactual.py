@@ -14,11 +14,12 @@ from functools import cached_property
 from typing import Literal, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from skyline_viz.arrays import F64, Bool, Int
-from skyline_viz.cost import CLEAR_SKY_ROWS, normalised
+from skyline_viz.cost import CLEAR_SKY_ROWS
 from skyline_viz.cost_split import edge_index
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
 from skyline_viz.metrics import column_errors
 from skyline_viz.path import cheapest_end, sweep, trace
 from skyline_viz.skyline import Skyline
@@ -89,24 +90,38 @@ class Case:
         return pixels
 
     @cached_property
-    def strength(self) -> F64:
-        """``(n,)`` gradient strength of the edge pixels as the cost has it, in [0, 1]."""
-        config = self.detection.config
-        return normalised(self.detection.strength, config.strength_percentile).astype(np.float64)
-
-    @cached_property
     def typical(self) -> tuple[float, float]:
-        """Score and strength that an edge of the truth has when all is well.
+        """Score that an edge of the truth has when all is well, and what it costs besides.
 
-        The upper quartile of the truth's own edges: where many of them fail, their median would
+        The better quartile of the truth's own edges: where many of them fail, their median would
         be the failure itself.
         """
         pixels = self.pixels[(self.pixels >= 0) & self.truth.visible]
         if len(pixels) < _LEAST_TYPICAL:
-            return 0.8, 0.5
-        scores, strength = self.detection.scores[pixels], self.strength[pixels]
+            return 0.8, (1 - self.detection.score_weight) / 2
+        scores, rest = self.detection.scores[pixels], self.detection.edge_rest[pixels]
         typical = max(float(np.percentile(scores, 75)), _LEAST_SCORE)
-        return typical, float(np.percentile(strength, 75))
+        return typical, float(np.percentile(rest, 25))
+
+    @property
+    def typical_cost(self) -> float:
+        """What an edge of the truth costs when all is well."""
+        score, rest = self.typical
+        return self.detection.score_weight * (1 - score) + rest
+
+    def saved(self, columns: npt.NDArray[np.intp]) -> F64:
+        """How much less the truth's edge pixels in some columns cost with a typical score.
+
+        An edge that its score has ruled out altogether becomes a typical one.
+        """
+        detection = self.detection
+        pixels = self.pixels[columns]
+        low = np.maximum(self.typical[0] - detection.scores[pixels], 0.0)
+        here = detection.cost[self.rows[columns], columns].astype(np.float64)
+        ruled_out = here >= detection.non_edge_cost
+        raised = detection.score_weight * low
+        saved: F64 = np.where(ruled_out, np.maximum(here - self.typical_cost, raised), raised)
+        return saved
 
     @cached_property
     def steps(self) -> Int:
@@ -129,7 +144,7 @@ class Case:
             apart: Bool = np.abs(self.path_rows - self.rows) > self.near
             return within & apart
         starved = np.zeros(self.truth.width, np.bool_)
-        starved[on_edge] = detection.bank.starved[detection.bins[self.pixels[on_edge]]]
+        starved[on_edge] = detection.starved[self.pixels[on_edge]]
         low = np.zeros(self.truth.width, np.bool_)
         low[on_edge] = detection.scores[self.pixels[on_edge]] < _LOW_SCORE * self.typical[0]
         return within & on_edge & low & (starved if change == "starved bin" else ~starved)
@@ -150,39 +165,40 @@ class Case:
             First column of the part that was searched again, and the rows from there on.
         """
         start, stop = self.window(first, last)
-        detection, config = self.detection, self.detection.config
+        detection = self.detection
         cost = detection.cost[:, start : stop + 1].T.astype(np.float64)
-        reach = np.full(stop - start, config.delta, np.int32)
+        reach = np.full(stop - start, detection.delta, np.int32)
         for change in changes:
             columns = np.flatnonzero(self.columns_of(change, first, last))
             rows = self.rows[columns]
             if change == "missed edge":
-                score, strength = self.typical
-                edge = config.v * (1 - score) + (1 - config.v) * (1 - strength)
-                cost[columns - start, rows] += edge - config.non_edge_cost
-                if config.clear_sky:
+                cost[columns - start, rows] += self.typical_cost - detection.no_edge_costs(
+                    rows, columns
+                )
+                if detection.clear_sky:
                     below = np.arange(cost.shape[1])[None, :] > rows[:, None] + CLEAR_SKY_ROWS
-                    cost[columns - start] += config.clear_sky * below
+                    cost[columns - start] += detection.clear_sky * below
             elif change == "too steep":
                 steps = self.steps[columns]
                 inner = np.clip(columns, first, last)  # on the truth alone, not where lines meet
-                np.subtract.at(cost, (inner - start, self.rows[inner]), config.link_weight * steps)
+                np.subtract.at(
+                    cost, (inner - start, self.rows[inner]), detection.link_weight * steps
+                )
                 links = columns - start - 1
                 inside = (links >= 0) & (links < len(reach))
                 reach[links[inside]] = np.maximum(reach[links[inside]], steps[inside])
             elif change == "cheaper path":
                 for away in range(-self.near, self.near + 1):
                     beside = np.clip(self.path_rows[columns] + away, 0, cost.shape[1] - 1)
-                    cost[columns - start, beside] += config.non_edge_cost
+                    cost[columns - start, beside] += detection.non_edge_cost
             else:
-                low = detection.scores[self.pixels[columns]]
-                cost[columns - start, rows] -= config.v * np.maximum(self.typical[0] - low, 0)
+                cost[columns - start, rows] -= self.saved(columns)
         for column, fixed in ((start, start > 0), (stop, stop < self.truth.width - 1)):
             if fixed or self.right[column]:
                 kept = cost[column - start, self.path_rows[column]]
                 cost[column - start] = np.inf
                 cost[column - start, self.path_rows[column]] = kept
-        return start, _cheapest(cost, np.minimum(reach, cost.shape[1] - 1), config.link_weight)
+        return start, _cheapest(cost, np.minimum(reach, cost.shape[1] - 1), detection.link_weight)
 
     def repaired(self, start: int, rows: Int, first: int, last: int) -> float:
         """Share of the visible columns from `first` to `last` in which a path is right."""

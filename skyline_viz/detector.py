@@ -1,15 +1,16 @@
 """The detector: a photo through all stages, and everything that they saw on the way."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from time import perf_counter
+from functools import cached_property
+from typing import TypedDict
 
 import numpy as np
+import numpy.typing as npt
 
-from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo, read_only
+from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
 from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
+from skyline_viz.detection import Detection, timed
 from skyline_viz.edges import edge_pixels, find_edges, to_grey
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import shortest_path
@@ -17,30 +18,14 @@ from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
 from skyline_viz.tensor import tensor_at
 from skyline_viz.terrain import BLOCK, terrain_above
-from skyline_viz.uncertainty import Uncertainty, uncertainty
 
 FRAME_SHARE = 0.5
 """A row at the rim of a photo is a picture frame when edges fill more than this share of it."""
 
 
-@dataclass(frozen=True, eq=False)
-class Detection:
-    """A skyline and every stage that led to it. Arrays ``(n,)`` run over the edge pixels."""
-
-    photo: U8
-    """``(H, W, 3)`` uint8 RGB."""
-
-    skyline: Skyline
-    """The detected line."""
-
-    edges: Bool
-    """``(H, W)`` edge map."""
-
-    edge_rows: Int
-    """``(n,)`` int32 row of each edge pixel."""
-
-    edge_columns: Int
-    """``(n,)`` int32 column of each edge pixel."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FilterDetection(Detection):
+    """What our detector found, and every stage that led to it."""
 
     strength: F32
     """``(n,)`` gradient strength, in grey levels a pixel."""
@@ -54,23 +39,8 @@ class Detection:
     bins: Int
     """``(n,)`` int32 bin, which is the index of the filter."""
 
-    scores: F32
-    """``(n,)`` score, in [0, 1]."""
-
-    cost: F32
-    """``(H, W)`` float32 nodal cost."""
-
-    path_cost: float
-    """Nodal and link costs along the path."""
-
-    forward: F64
-    """``(H, W)`` float64 cost of the cheapest path from the first column to each pixel."""
-
     thresholds: tuple[float, float]
     """Canny thresholds that were used."""
-
-    seconds: dict[str, float]
-    """Seconds of each stage: edges, tensor, bins, score, cost, path."""
 
     config: DetectorConfig
     """The configuration that was used."""
@@ -78,24 +48,22 @@ class Detection:
     bank: FilterBank
     """The filter bank that was used."""
 
-    def __post_init__(self) -> None:
-        """Freeze the arrays, all but the caller's own photo."""
-        for value in vars(self).values():
-            if isinstance(value, np.ndarray) and value is not self.photo:
-                read_only(value)
+    @cached_property
+    def starved(self) -> Bool:
+        """``(n,)`` edge pixels in starved bins."""
+        starved: Bool = self.bank.starved[self.bins]
+        return starved
 
-    def uncertainty(self) -> Uncertainty:
-        """How sure the path is: margins and detours. Takes one more path search."""
-        return uncertainty(self.cost, self.forward, self.config.delta, self.config.link_weight)
+    @cached_property
+    def edge_rest(self) -> F64:
+        """``(n,)`` what the gradient strength of each edge pixel costs."""
+        strength = normalised(self.strength, self.config.strength_percentile)
+        return (1 - self.config.v) * (1 - strength.astype(np.float64))
 
-    def margins(self) -> F64:
-        """How sure each column is, ``(W,)``: see `uncertainty.Uncertainty.margins`."""
-        return self.uncertainty().margins
-
-    @property
-    def total_seconds(self) -> float:
-        """Seconds of all stages."""
-        return sum(self.seconds.values())
+    def no_edge_costs(self, rows: Int, columns: npt.NDArray[np.integer]) -> F64:
+        """What pixels ``(k,)`` pay for having no edge; terrain and clear sky are not in it."""
+        del columns
+        return np.full(len(rows), self.non_edge_cost)
 
 
 @dataclass(frozen=True)
@@ -114,7 +82,12 @@ class Detector:
     config: DetectorConfig = field(default_factory=DetectorConfig)
     """The configuration."""
 
-    def detect(self, photo: U8) -> Detection:
+    @property
+    def name(self) -> str:
+        """``default``, or ``paper`` with the published settings."""
+        return "paper" if self.config == DetectorConfig.paper() else "default"
+
+    def detect(self, photo: U8) -> FilterDetection:
         """Find the skyline of a photo.
 
         A photo without a single edge gets a level line in the middle; its margins are 0.
@@ -130,20 +103,21 @@ class Detector:
         photo = np.ascontiguousarray(photo)
         config, bank = self.config, self.bank
         seconds: dict[str, float] = {}
-        with _timed(seconds, "edges"):
+        with timed(seconds, "edges"):
             edges, thresholds = candidate_edges(photo, config)
             rows, columns = edge_pixels(edges)
-        with _timed(seconds, "tensor"):
+        with timed(seconds, "tensor"):
             tensor = tensor_at(photo, rows, columns)
-        with _timed(seconds, "bins"):
+        with timed(seconds, "bins"):
             bins = bank.bins.of(tensor)
-        with _timed(seconds, "score"):
+        with timed(seconds, "score"):
             scores = score_at(to_grey(photo), rows, columns, bins, bank.filters)
-        with _timed(seconds, "cost"):
+        with timed(seconds, "cost"):
             cost = self._cost(photo, edges, tensor.strength, scores)
-        with _timed(seconds, "path"):
+        with timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
-        return Detection(
+        return FilterDetection(
+            method=self.name,
             photo=photo,
             skyline=Skyline(rows=path.rows.astype(np.float32)),
             edges=edges,
@@ -161,9 +135,10 @@ class Detector:
             seconds=seconds,
             config=config,
             bank=bank,
+            **_search_settings(config),
         )
 
-    def again(self, found: Detection) -> Detection:
+    def again(self, found: FilterDetection) -> FilterDetection:
         """Find the skyline of a detection's photo, as `detect` does.
 
         The stages on which this detector and that of the detection agree are not computed anew:
@@ -179,18 +154,19 @@ class Detector:
         seconds = dict.fromkeys(found.seconds, 0.0)
         scores, cost = found.scores, found.cost
         if bank is not found.bank:
-            with _timed(seconds, "score"):
+            with timed(seconds, "score"):
                 grey = to_grey(found.photo)
                 rows, columns = found.edge_rows, found.edge_columns
                 scores = score_at(grey, rows, columns, found.bins, bank.filters)
         alike = replace(config, delta=found.config.delta, link_weight=found.config.link_weight)
         if bank is not found.bank or alike != found.config:
-            with _timed(seconds, "cost"):
+            with timed(seconds, "cost"):
                 cost = self._cost(found.photo, found.edges, found.strength, scores)
-        with _timed(seconds, "path"):
+        with timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
         return replace(
             found,
+            method=self.name,
             skyline=Skyline(rows=path.rows.astype(np.float32)),
             scores=scores,
             cost=cost,
@@ -199,6 +175,7 @@ class Detector:
             seconds=seconds,
             config=config,
             bank=bank,
+            **_search_settings(config),
         )
 
     def _cost(self, photo: U8, edges: Bool, strength: F32, scores: F32) -> F32:
@@ -229,14 +206,26 @@ def candidate_edges(photo: U8, config: DetectorConfig) -> tuple[Bool, tuple[floa
     return edges, thresholds
 
 
+class _SearchSettings(TypedDict):
+    delta: int
+    link_weight: float
+    non_edge_cost: float
+    score_weight: float
+    clear_sky: float
+
+
+def _search_settings(config: DetectorConfig) -> _SearchSettings:
+    """What a detection says of how its costs were made and searched."""
+    return {
+        "delta": config.delta,
+        "link_weight": config.link_weight,
+        "non_edge_cost": config.non_edge_cost,
+        "score_weight": config.v,
+        "clear_sky": config.clear_sky,
+    }
+
+
 def _edge_settings(config: DetectorConfig) -> tuple[object, ...]:
     """What `candidate_edges` depends on."""
     thresholds = (config.low_threshold, config.high_threshold, config.fit_thresholds)
     return (config.edge_source, *thresholds, config.frame)
-
-
-@contextmanager
-def _timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
-    start = perf_counter()
-    yield
-    seconds[stage] = perf_counter() - start

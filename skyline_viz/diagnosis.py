@@ -30,7 +30,8 @@ from skyline_viz.arrays import U8, Int
 from skyline_viz.causes import Cause
 from skyline_viz.cost_split import CostSplit, split_cost
 from skyline_viz.counterfactual import CHANGES, Case, Change, scaled
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
+from skyline_viz.detector import FilterDetection
 from skyline_viz.skyline import Skyline, SkylineError
 
 TOLERANCE = 4.0
@@ -273,17 +274,15 @@ def _needed(usable: Sequence[Change], tried: Any) -> tuple[Change, ...]:  # noqa
 
 def _effect(case: Case, change: Change, first: int, last: int) -> float:
     """How much cheaper a change makes the truth."""
-    columns = case.columns_of(change, first, last)
-    config = case.detection.config
+    columns = np.flatnonzero(case.columns_of(change, first, last))
+    detection = case.detection
     if change == "missed edge":
-        score, strength = case.typical
-        edge = config.v * (1 - score) + (1 - config.v) * (1 - strength)
-        return float(columns.sum() * (config.non_edge_cost - edge))
+        due = detection.no_edge_costs(case.rows[columns], columns)
+        return float((due - case.typical_cost).sum())
     if change == "too steep":
-        steep = np.maximum(case.steps[columns] - config.delta, 0)
-        return float(config.link_weight * case.steps[columns].sum() + steep.sum())
-    low = case.detection.scores[case.pixels[columns]]
-    return float(config.v * np.maximum(case.typical[0] - low, 0).sum())
+        steep = np.maximum(case.steps[columns] - detection.delta, 0)
+        return float(detection.link_weight * case.steps[columns].sum() + steep.sum())
+    return float(case.saved(columns).sum())
 
 
 @dataclass(frozen=True)
@@ -362,22 +361,28 @@ def _evidence(case: Case, chosen: Sequence[Change], first: int, last: int, share
             said.append(f"the truth has no edge in {count} of {length} columns")
         elif change == "too steep":
             steepest = int(case.steps[columns].max())
-            config = detection.config
             said.append(
                 f"the truth climbs up to {steepest} rows a column "
-                f"(delta {config.delta}, link weight {config.link_weight:g})"
+                f"(delta {detection.delta}, link weight {detection.link_weight:g})"
             )
         else:
             pixels = case.pixels[columns]
             score = float(np.median(detection.scores[pixels]))
-            bins = np.unique(detection.bins[pixels])
-            kind = "starved" if change == "starved bin" else "well-trained"
             said.append(
-                f"{count} edge pixels of the truth score {score:.2f} in {len(bins)} {kind} "
-                f"{'bin' if len(bins) == 1 else 'bins'}, where {case.typical[0]:.2f} is typical"
+                f"{count} edge pixels of the truth score {score:.2f}"
+                f"{_in_bins(detection, pixels)}, where {case.typical[0]:.2f} is typical"
             )
     found = "; ".join(said)
     return f"{found[:1].upper()}{found[1:]}. With that made right, {share:.0%} of them are right."
+
+
+def _in_bins(detection: Detection, pixels: Int) -> str:
+    """Which bins some edge pixels fell into, in words; nothing for methods without bins."""
+    if not isinstance(detection, FilterDetection):
+        return ""
+    count = len(np.unique(detection.bins[pixels]))
+    kind = "starved" if detection.starved[pixels].all() else "well-trained"
+    return f" in {count} {kind} {'bin' if count == 1 else 'bins'}"
 
 
 def _cheaper(
@@ -391,6 +396,6 @@ def _cheaper(
     then = f"Without the path's edges, {without:.0%} of the columns come back"
     return (
         f"The path is {total:.1f} cheaper than the truth here, {dearer[stage]:.1f} of it by "
-        f"{stage.replace('_', ' ')}. No change of the truth brings back more than {best:.0%} of "
+        f"{stage}. No change of the truth brings back more than {best:.0%} of "
         f"the columns. {then}{'.' if without >= REPAIRED else '; yet other lines are cheaper.'}"
     )

@@ -16,7 +16,7 @@ from skyline_viz.arrays import U8, Int
 from skyline_viz.column_views import LINE_RADIUS
 from skyline_viz.cost_split import CostSplit, split_cost
 from skyline_viz.counterfactual import Case
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
 from skyline_viz.diagnosis import Diagnosis, Segment
 from skyline_viz.overlay import ALTERNATIVE, HALO
 from skyline_viz.recording import Fidelity
@@ -26,8 +26,9 @@ _FRAME, _MISSED, _STARVED = (0xF5, 0xF5, 0xF5), (0xE6, 0x9F, 0x00), (0x56, 0xB4,
 _STAGES = {
     "score": "#56B4E9",
     "strength": "#0072B2",
-    "no_edge": "#E69F00",
-    "clear_sky": "#CC79A7",
+    "edge": "#0072B2",
+    "no edge": "#E69F00",
+    "clear sky": "#CC79A7",
     "terrain": "#009E73",
     "link": "#999999",
 }
@@ -120,18 +121,19 @@ def stacked_costs(path: CostSplit, truth: CostSplit) -> U8:
         canvas: Any = FigureCanvasAgg(figure)
         both = figure.subplots(1, 2, sharey=True)
         for axes, split, title in zip(both, (path, truth), ("Path", "Truth"), strict=True):
-            costs = np.array([_smooth(getattr(split, stage)) for stage in _STAGES])
+            costs = np.array([_smooth(one) for one in split.stages.values()])
             columns = np.arange(costs.shape[1])
-            colours = list(_STAGES.values())
+            colours = [_STAGES[stage] for stage in split.stages]
             for sign in (np.maximum, np.minimum):  # gains go below the axis
                 axes.stackplot(columns, sign(costs, 0), colors=colours, linewidth=0)
             axes.plot(columns, costs.sum(axis=0), color="white", linewidth=0.8)
             axes.set_title(f"{title}: cost of each column")
             axes.margins(x=0)
             axes.set_xlabel("column")
-        handles = [both[0].collections[at] for at in range(len(_STAGES))]
-        words = [stage.replace("_", " ") for stage in _STAGES]
-        figure.legend(handles, words, loc="outside lower center", ncols=6, frameon=False)
+        handles = [both[0].collections[at] for at in range(len(path.stages))]
+        figure.legend(
+            handles, list(path.stages), loc="outside lower center", ncols=6, frameon=False
+        )
         canvas.draw()
         picture: U8 = np.asarray(canvas.buffer_rgba())[..., :3].copy()
     return picture
@@ -152,7 +154,7 @@ def _log_truth_pixels(recording: rr.RecordingStream, case: Case) -> None:
     on_edge = case.pixels >= 0
     starved = np.zeros(len(on_edge), np.bool_)
     detection = case.detection
-    starved[on_edge] = detection.bank.starved[detection.bins[case.pixels[on_edge]]]
+    starved[on_edge] = detection.starved[case.pixels[on_edge]]
     for entity, where, colour in (
         (entities.TRUTH_MISSED, ~on_edge & case.truth.visible, _MISSED),
         (entities.TRUTH_STARVED, starved & case.truth.visible, _STARVED),

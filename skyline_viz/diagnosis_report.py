@@ -13,7 +13,7 @@ import numpy as np
 
 from skyline_viz.causes import CAUSES
 from skyline_viz.config import DetectorConfig, EdgeSource
-from skyline_viz.detector import Detection, Detector
+from skyline_viz.detector import Detector, FilterDetection
 from skyline_viz.diagnosis import REPAIRED, Diagnosis, diagnose, failing_runs
 from skyline_viz.evaluation import Test
 from skyline_viz.files import replacing, write_text
@@ -75,7 +75,9 @@ def diagnose_item(tolerance: float | None, test: Test, *, remedies: bool) -> Dia
     detection = test.detector.detect(item.photo())
     found = diagnose(detection, truth, tolerance)
     errors = column_errors(detection.skyline, truth)
-    tried = try_remedies(detection, truth, found) if remedies else ()
+    tried: tuple[Remedy, ...] = ()
+    if remedies and isinstance(detection, FilterDetection):
+        tried = try_remedies(detection, truth, found)
     return Diagnosed(item.name, float(np.nanmean(errors)), found, tried)
 
 
@@ -103,12 +105,14 @@ def settings_to_try(
     }
 
 
-def try_remedies(detection: Detection, truth: Skyline, found: Diagnosis) -> tuple[Remedy, ...]:
+def try_remedies(
+    detection: FilterDetection, truth: Skyline, found: Diagnosis
+) -> tuple[Remedy, ...]:
     """Detect with other settings, and count segments that are right then, or wrong only then."""
     remedies = []
     runs = [segment.columns for segment in found.segments]
     for name, config in settings_to_try(detection.config, detection.thresholds).items():
-        again = Detector(detection.bank, config).detect(detection.photo)
+        again = Detector(detection.bank, config).again(detection)
         wrong = column_errors(again.skyline, truth) > found.tolerance
         repaired = sum(1 - wrong[a : b + 1].mean() >= REPAIRED for a, b in runs)
         new = failing_runs(wrong)
@@ -175,7 +179,7 @@ def in_full(one: Diagnosed) -> str:
             what = " and ".join(trial.changes)
             lines.append(f"  {what}, {trial.columns} columns: {trial.repaired:.0%} come back")
         stages = [
-            f"{name.replace('_', ' ')} {segment.truth_cost[name] - paid:+.1f}"
+            f"{name} {segment.truth_cost[name] - paid:+.1f}"
             for name, paid in segment.path_cost.items()
         ]
         lines.append(f"  the truth costs more than the path by: {', '.join(stages)}")

@@ -30,6 +30,9 @@ COST = "cost"
 DETOUR = "detour"
 """Stage 6: how much dearer the cheapest path through a pixel is: its min-marginal less the best."""
 
+MAPS = "maps"
+"""`MAPS`/NAME: further maps of another method, such as its dense scores."""
+
 EDGE_PIXELS = "edge_pixels"
 """Exact values at the edge pixels: edge_row, edge_column, bin, strength, coherence, orientation,
 score, cost."""

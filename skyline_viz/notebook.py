@@ -13,7 +13,7 @@ import rerun as rr
 import rerun.notebook as rrn
 
 from skyline_viz.blueprints import Contents, detection_blueprint
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
 from skyline_viz.recording import APPLICATION, Fidelity, log_detection
 from skyline_viz.skyline import Skyline
 

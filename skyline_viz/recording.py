@@ -29,7 +29,8 @@ from skyline_viz.arrays import U8, Bool, check_photo
 from skyline_viz.bank_recording import log_filter_bank
 from skyline_viz.blueprints import Contents, detection_blueprint, stages_blueprint
 from skyline_viz.column_views import TRUTH_RADIUS, log_columns, log_line
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
+from skyline_viz.detector import FilterDetection
 from skyline_viz.files import replacing
 from skyline_viz.overlay import PATH, TRUTH
 from skyline_viz.report import report
@@ -137,11 +138,19 @@ def log_detection(
     text = report(name, detection, verdict, count)
     recording.log(at(entities.REPORT), rr.TextDocument(text, media_type="text/markdown"))
     if fidelity == "full":
-        log_filter_bank(recording, detection.bank, under=under)
+        ours = isinstance(detection, FilterDetection)
+        if isinstance(detection, FilterDetection):
+            log_filter_bank(recording, detection.bank, under=under)
         if not under:
-            _lay_out(
-                recording, detection_blueprint(Contents(height, photo.shape[1], truth is not None))
+            contents = Contents(
+                height,
+                photo.shape[1],
+                truth=truth is not None,
+                filters=ours,
+                maps=tuple(detection.maps),
+                bank=ours,
             )
+            _lay_out(recording, detection_blueprint(contents))
     return verdict
 
 

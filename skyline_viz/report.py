@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import fields
 
 from skyline_viz.config import DetectorConfig
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
+from skyline_viz.detector import FilterDetection
 from skyline_viz.verdict import Verdict
 
 _MOST_SEGMENTS = 6
@@ -23,7 +24,6 @@ def report(name: str, detection: Detection, verdict: Verdict, shown: int) -> str
     """
     height, width = detection.edges.shape
     edges = len(detection.scores)
-    low, high = detection.thresholds
     lines = [
         f"**{name or 'photo'}**  ",
         f"{width} x {height} px",
@@ -31,8 +31,7 @@ def report(name: str, detection: Detection, verdict: Verdict, shown: int) -> str
         *_verdict(verdict),
         "",
         f"**Margin** {verdict.margin:.3g}, least sure at column {verdict.unsure_column}  ",
-        f"**Edges** {edges:,} pixels ({edges / (width * height):.0%}), "
-        f"Canny {low:.0f} and {high:.0f}  ",
+        f"**Edges** {edges:,} pixels ({edges / (width * height):.0%}){_thresholds(detection)}  ",
         *([f"Maps show the {shown:,} cheapest of their columns  "] if shown < edges else []),
         f"**Path cost** {detection.path_cost:.4g}  ",
     ]
@@ -78,7 +77,16 @@ def _verdict(verdict: Verdict) -> list[str]:
     ]
 
 
+def _thresholds(detection: Detection) -> str:
+    if not isinstance(detection, FilterDetection):
+        return ""
+    low, high = detection.thresholds
+    return f", Canny {low:.0f} and {high:.0f}"
+
+
 def _how(detection: Detection) -> str:
+    if not isinstance(detection, FilterDetection):
+        return f"Method {detection.method}."
     if detection.config == DetectorConfig.paper():
         settings = "the paper's settings"
     else:

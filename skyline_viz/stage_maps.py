@@ -13,7 +13,8 @@ import rerun as rr
 from skyline_viz import entities
 from skyline_viz.arrays import F32, Bool
 from skyline_viz.bank_recording import bin_legend
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
+from skyline_viz.detector import FilterDetection
 from skyline_viz.skyline import Skyline
 from skyline_viz.tensor import tensor_map
 from skyline_viz.value_maps import COARSE, FINE, Quantity, dense_map, sparse_map
@@ -60,25 +61,30 @@ def log_maps(
     """
     kept = slice(None) if shown is None else np.flatnonzero(shown)
     rows, columns = detection.edge_rows[kept], detection.edge_columns[kept]
-    bins = detection.bins[kept]
     values: dict[str, F32] = {
-        entities.STRENGTH: detection.strength[kept],
-        entities.COHERENCE: detection.coherence[kept],
-        entities.ORIENTATION: detection.orientation[kept],
         entities.SCORE: detection.scores[kept],
         entities.COST: detection.cost[rows, columns],
     }
+    if isinstance(detection, FilterDetection):
+        values |= {
+            entities.STRENGTH: detection.strength[kept],
+            entities.COHERENCE: detection.coherence[kept],
+            entities.ORIENTATION: detection.orientation[kept],
+        }
     dense: dict[str, F32] = {}
     if shown is None:
-        tensor = tensor_map(detection.photo)
-        dense = {
-            entities.STRENGTH: tensor.strength,
-            entities.COHERENCE: tensor.coherence,
-            entities.ORIENTATION: tensor.orientation,
-            entities.COST: detection.cost,
-        }
+        dense = {entities.COST: _finite_cost(detection)}
+        if isinstance(detection, FilterDetection):
+            tensor = tensor_map(detection.photo)
+            dense |= {
+                entities.STRENGTH: tensor.strength,
+                entities.COHERENCE: tensor.coherence,
+                entities.ORIENTATION: tensor.orientation,
+            }
         exact = {entity.rsplit("/", 1)[-1]: one for entity, one in values.items()}
-        table: dict[str, Any] = {"edge_row": rows, "edge_column": columns, "bin": bins, **exact}
+        table: dict[str, Any] = {"edge_row": rows, "edge_column": columns, **exact}
+        if isinstance(detection, FilterDetection):
+            table["bin"] = detection.bins
         recording.log(at(entities.EDGE_PIXELS), rr.AnyValues(True, **table))
     shape = detection.edges.shape
     levels = FINE if shown is None else COARSE
@@ -89,10 +95,23 @@ def log_maps(
             quantity = QUANTITIES[entity]
             sparse = sparse_map(quantity, shape, rows, columns, at_edges, levels)
             sparse.log(recording, at(entity))
-    bin_map = np.zeros(shape, np.uint16)
-    bin_map[rows, columns] = bins + 1
-    recording.log(at(entities.BIN), bin_legend(detection.bank.bins), rr.SegmentationImage(bin_map))
+    if isinstance(detection, FilterDetection):
+        bin_map = np.zeros(shape, np.uint16)
+        bin_map[rows, columns] = detection.bins[kept] + 1
+        legend = bin_legend(detection.bank.bins)
+        recording.log(at(entities.BIN), legend, rr.SegmentationImage(bin_map))
+    for stage, further in detection.maps.items():
+        quantity = Quantity(stage)
+        dense_map(quantity, further, levels).log(recording, at(f"{entities.MAPS}/{stage}"))
     return len(rows)
+
+
+def _finite_cost(detection: Detection) -> F32:
+    """Nodal costs to show: where a method rules pixels out, these have none."""
+    if isinstance(detection, FilterDetection):
+        return detection.cost
+    ruled_out = detection.cost >= detection.non_edge_cost
+    return np.where(ruled_out, np.float32(np.nan), detection.cost)
 
 
 def log_detour(

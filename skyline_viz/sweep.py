@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from skyline_viz.config import DetectorConfig
-from skyline_viz.detector import Detection, Detector
+from skyline_viz.detector import Detector, FilterDetection
 from skyline_viz.edges import LOWEST_FACTOR
 from skyline_viz.filter_bank import FilterBank
 
@@ -57,7 +57,7 @@ class Sweep:
     note: str = ""
     """What else there is to know; a sentence, or nothing."""
 
-    def detections(self, found: Detection) -> Iterator[tuple[Step, Detection]]:
+    def detections(self, found: FilterDetection) -> Iterator[tuple[Step, FilterDetection]]:
         """Detect with each value. Stages that the setting leaves as they are are not repeated.
 
         Args:
@@ -67,12 +67,12 @@ class Sweep:
             yield step, step.detector.again(found)
 
 
-def setting_sweeps(found: Detection) -> list[Sweep]:
+def setting_sweeps(found: FilterDetection) -> list[Sweep]:
     """Sweeps of Canny thresholds, ``v``, ``delta`` and link weight around a detection."""
     return [_thresholds(found), _v(found), _delta(found), _link_weight(found)]
 
 
-def size_sweep(found: Detection, banks: Sequence[FilterBank]) -> Sweep:
+def size_sweep(found: FilterDetection, banks: Sequence[FilterBank]) -> Sweep:
     """Sweep of the filter size.
 
     Args:
@@ -99,7 +99,7 @@ def size_sweep(found: Detection, banks: Sequence[FilterBank]) -> Sweep:
     )
 
 
-def _thresholds(found: Detection) -> Sweep:
+def _thresholds(found: FilterDetection) -> Sweep:
     """30 to 200 % of the thresholds that were used: as low as fitting lowers those of the paper."""
     steps = {}
     for percent in range(round(100 * LOWEST_FACTOR), 201, 10):
@@ -116,13 +116,13 @@ def _thresholds(found: Detection) -> Sweep:
     )
 
 
-def _v(found: Detection) -> Sweep:
+def _v(found: FilterDetection) -> Sweep:
     """0 to 1; the present value takes the place of one that is within half a percent of it."""
     values = [*(percent / 100 for percent in range(0, 101, 5)), found.config.v]
     return _numbers(found, "v", "v", 100, "hundredths", values)
 
 
-def _delta(found: Detection) -> Sweep:
+def _delta(found: FilterDetection) -> Sweep:
     """1 to 12 px, or to twice the present value in a dozen steps where that is more."""
     present = found.config.delta
     stride = max(1, round(present / 6))
@@ -131,7 +131,7 @@ def _delta(found: Detection) -> Sweep:
     return _numbers(found, "delta", "delta", 1, "pixels", [min(one, top) for one in values], " px")
 
 
-def _link_weight(found: Detection) -> Sweep:
+def _link_weight(found: FilterDetection) -> Sweep:
     """0 to three times the present value."""
     present = found.config.link_weight
     unit = present or _LINK
@@ -140,7 +140,7 @@ def _link_weight(found: Detection) -> Sweep:
 
 
 def _numbers(
-    found: Detection,
+    found: FilterDetection,
     field: str,
     title: str,
     scale: int,

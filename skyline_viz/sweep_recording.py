@@ -14,7 +14,8 @@ import rerun as rr
 
 from skyline_viz import entities
 from skyline_viz.column_views import ALTERNATIVE_RADIUS, log_line
-from skyline_viz.detector import Detection
+from skyline_viz.detection import Detection
+from skyline_viz.detector import FilterDetection
 from skyline_viz.overlay import ALTERNATIVE, PATH
 from skyline_viz.recording import encoded_edges
 from skyline_viz.report import listed_segments
@@ -49,7 +50,7 @@ class _Outcome:
 def log_sweeps(
     recording: rr.RecordingStream,
     sweeps: Sequence[Sweep],
-    found: Detection,
+    found: FilterDetection,
     truth: Skyline | None = None,
     advance: Callable[[], None] = lambda: None,
 ) -> None:
@@ -101,7 +102,7 @@ def log_sweeps(
 def _log_sweep(
     recording: rr.RecordingStream,
     sweep: Sweep,
-    found: Detection,
+    found: FilterDetection,
     truth: Skyline | None,
     advance: Callable[[], None],
 ) -> list[_Outcome]:
@@ -140,7 +141,9 @@ def _log_stages(
         shown.log(recording, entities.SWEEP_COST)
 
 
-def _outcome(step: Step, detection: Detection, found: Detection, truth: Skyline | None) -> _Outcome:
+def _outcome(
+    step: Step, detection: Detection, found: FilterDetection, truth: Skyline | None
+) -> _Outcome:
     height = len(found.photo)
     verdict = Verdict.of(detection.skyline, detection.margins(), height, truth)
     apart = np.abs(detection.skyline.rows - found.skyline.rows).astype(np.float64)

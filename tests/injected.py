@@ -6,7 +6,8 @@ from functools import cache
 import cv2
 import numpy as np
 
-from skyline_viz.detector import Detection, Detector
+from skyline_viz.detection import Detection
+from skyline_viz.detector import Detector
 from skyline_viz.diagnosis import diagnose
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.rendering import render

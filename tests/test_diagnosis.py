@@ -68,7 +68,7 @@ def test_the_parts_of_a_cost_add_up_to_the_whole(hazy):
     assert whole == pytest.approx(detection.path_cost, rel=1e-5)
     other = split_cost(detection, truth.rows.astype(np.int32))
     assert sum(other.totals(0, truth.width - 1).values()) > whole
-    assert (np.abs(split.score) <= 1).all()
+    assert (np.abs(split.stages["score"]) <= 1).all()
 
 
 def test_without_any_change_the_search_gives_the_path_back(hazy):

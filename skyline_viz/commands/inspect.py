@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     import rerun as rr
 
     from skyline_viz.blueprints import Contents
-    from skyline_viz.detector import Detection, Detector
+    from skyline_viz.detection import Detection
+    from skyline_viz.detector import Detector, FilterDetection
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.recording import Fidelity
     from skyline_viz.skyline import Skyline
@@ -302,7 +303,7 @@ def _log_diagnosis(
 
 
 def _begin_sweeps(
-    recording: rr.RecordingStream, found: Detection, sizes: Sequence[FilterBank]
+    recording: rr.RecordingStream, found: FilterDetection, sizes: Sequence[FilterBank]
 ) -> list[Sweep]:
     """Choose what to sweep; what is logged from now on is there on all of the timelines."""
     from skyline_viz.sweep import setting_sweeps, size_sweep  # noqa: PLC0415
@@ -318,7 +319,10 @@ def _begin_sweeps(
 
 
 def _log_sweeps(
-    recording: rr.RecordingStream, sweeps: list[Sweep], found: Detection, truth: Skyline | None
+    recording: rr.RecordingStream,
+    sweeps: list[Sweep],
+    found: FilterDetection,
+    truth: Skyline | None,
 ) -> None:
     """Detect with all values, and log it."""
     from skyline_viz.sweep_recording import log_sweeps  # noqa: PLC0415

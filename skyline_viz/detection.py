@@ -1,0 +1,174 @@
+"""What a method found: a skyline, the candidate pixels that it chose from, and what they cost."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import cached_property
+from time import perf_counter
+from types import MappingProxyType
+
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.arrays import F32, F64, U8, Bool, Int, read_only
+from skyline_viz.edges import edge_pixels
+from skyline_viz.path import shortest_path
+from skyline_viz.skyline import Skyline
+from skyline_viz.uncertainty import Uncertainty, uncertainty
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Detection:
+    """A skyline and what led to it, whatever the method.
+
+    Arrays ``(n,)`` run over the edge pixels: the pixels that a method takes for candidates, which
+    are all pixels of the photo where it looks for no edges. A score says how much a pixel looks
+    like skyline; an edge pixel costs ``score_weight (1 - score)``, and whatever else the method
+    adds.
+    """
+
+    method: str
+    """Name of the method."""
+
+    photo: U8
+    """``(H, W, 3)`` uint8 RGB."""
+
+    skyline: Skyline
+    """The detected line."""
+
+    edges: Bool
+    """``(H, W)`` edge map."""
+
+    edge_rows: Int
+    """``(n,)`` int32 row of each edge pixel."""
+
+    edge_columns: Int
+    """``(n,)`` int32 column of each edge pixel."""
+
+    scores: F32
+    """``(n,)`` score, in [0, 1]."""
+
+    cost: F32
+    """``(H, W)`` float32 nodal cost."""
+
+    path_cost: float
+    """Nodal and link costs along the path."""
+
+    forward: F64
+    """``(H, W)`` float64 cost of the cheapest path from the first column to each pixel."""
+
+    seconds: dict[str, float]
+    """Seconds of each stage."""
+
+    delta: int
+    """Largest change of row between neighbouring columns, in pixels."""
+
+    link_weight: float
+    """Link cost of one pixel of row change."""
+
+    non_edge_cost: float
+    """Nodal cost of a pixel without an edge."""
+
+    score_weight: float = 1.0
+    """What a score of 0 costs more than one of 1."""
+
+    clear_sky: float = 0.0
+    """Cost that each edge pixel above a pixel adds to it."""
+
+    maps: Mapping[str, F32] = field(default_factory=lambda: MappingProxyType({}))
+    """Further maps ``(H, W)`` that the method made, by name: its own stages."""
+
+    def __post_init__(self) -> None:
+        """Freeze the arrays, all but the caller's own photo."""
+        for value in (*vars(self).values(), *self.maps.values()):
+            if isinstance(value, np.ndarray) and value is not self.photo:
+                read_only(value)
+
+    @cached_property
+    def starved(self) -> Bool:
+        """``(n,)`` edge pixels whose score was learned from too little."""
+        return np.zeros(len(self.scores), np.bool_)
+
+    @cached_property
+    def edge_rest(self) -> F64:
+        """``(n,)`` what each edge pixel costs besides its score, wherever in the photo it is."""
+        at_edges = self.cost[self.edge_rows, self.edge_columns].astype(np.float64)
+        return at_edges - self.score_weight * (1 - self.scores.astype(np.float64))
+
+    def no_edge_costs(self, rows: Int, columns: npt.NDArray[np.integer]) -> F64:
+        """What pixels ``(k,)`` pay for having no edge, as far as they have none."""
+        costs: F64 = self.cost[rows, columns].astype(np.float64)
+        return costs
+
+    def uncertainty(self) -> Uncertainty:
+        """How sure the path is: margins and detours. Takes one more path search."""
+        return uncertainty(self.cost, self.forward, self.delta, self.link_weight)
+
+    def margins(self) -> F64:
+        """How sure each column is, ``(W,)``: see `uncertainty.Uncertainty.margins`."""
+        return self.uncertainty().margins
+
+    @property
+    def total_seconds(self) -> float:
+        """Seconds of all stages."""
+        return sum(self.seconds.values())
+
+
+def solve_detection(
+    method: str,
+    photo: U8,
+    edges: Bool,
+    scores: F32,
+    cost: F32,
+    seconds: dict[str, float],
+    *,
+    delta: int,
+    link_weight: float,
+    non_edge_cost: float,
+    score_weight: float = 1.0,
+    maps: Mapping[str, F32] | None = None,
+) -> Detection:
+    """Search the cheapest path through nodal costs, and put a detection together.
+
+    Args:
+        method: Name of the method.
+        photo: ``(H, W, 3)`` uint8 RGB.
+        edges: ``(H, W)`` candidate pixels.
+        scores: ``(n,)`` their scores, row by row, in [0, 1].
+        cost: ``(H, W)`` nodal cost of every pixel.
+        seconds: Seconds of the stages so far; that of the path is added.
+        delta: Largest change of row between neighbouring columns, in pixels.
+        link_weight: Link cost of one pixel of row change.
+        non_edge_cost: Nodal cost of a pixel that is no candidate.
+        score_weight: What a score of 0 costs more than one of 1.
+        maps: Further maps ``(H, W)`` to show, by name.
+    """
+    with timed(seconds, "path"):
+        path = shortest_path(cost, delta, link_weight)
+    rows, columns = edge_pixels(edges)
+    return Detection(
+        method=method,
+        photo=photo,
+        skyline=Skyline(rows=path.rows.astype(np.float32)),
+        edges=edges,
+        edge_rows=rows,
+        edge_columns=columns,
+        scores=scores,
+        cost=cost,
+        path_cost=path.cost,
+        forward=path.forward,
+        seconds=seconds,
+        delta=delta,
+        link_weight=link_weight,
+        non_edge_cost=non_edge_cost,
+        score_weight=score_weight,
+        maps=MappingProxyType(dict(maps or {})),
+    )
+
+
+@contextmanager
+def timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
+    """Add how long a block took to the seconds of a stage."""
+    start = perf_counter()
+    yield
+    seconds[stage] = seconds.get(stage, 0.0) + perf_counter() - start
