@@ -84,6 +84,12 @@ class Case:
         return max(round(scaled(_NEAR, len(self.detection.edges))), int(_NEAR))
 
     @cached_property
+    def _away(self) -> Bool:
+        """``(W,)`` columns in which the path does not run along the truth."""
+        away: Bool = np.abs(self.path_rows - self.rows) > self.near
+        return away
+
+    @cached_property
     def pixels(self) -> Int:
         """``(W,)`` the truth's edge pixel in each column, as an index; -1 where it has none."""
         _, pixels = self._on_edges
@@ -141,13 +147,23 @@ class Case:
             around[max(first - 1, 0) : last + 2] = True
             return around & (self.steps > 1)
         if change == "cheaper path":
-            apart: Bool = np.abs(self.path_rows - self.rows) > self.near
-            return within & apart
+            return within & self._away
         starved = np.zeros(self.truth.width, np.bool_)
         starved[on_edge] = detection.starved[self.pixels[on_edge]]
         low = np.zeros(self.truth.width, np.bool_)
         low[on_edge] = detection.scores[self.pixels[on_edge]] < _LOW_SCORE * self.typical[0]
         return within & on_edge & low & (starved if change == "starved bin" else ~starved)
+
+    def excursion(self, first: int, last: int) -> tuple[int, int]:
+        """Columns from where the path leaves the truth to where it is back, around wrong ones.
+
+        What drew the path away may lie in columns where it is not yet off by the tolerance.
+        """
+        there = np.flatnonzero(~self._away[: first + 1])
+        back = np.flatnonzero(~self._away[last:])
+        start = int(there[-1]) + 1 if len(there) else 0
+        stop = last + int(back[0]) - 1 if len(back) else self.truth.width - 1
+        return min(start, first), max(stop, last)
 
     def window(self, first: int, last: int) -> tuple[int, int]:
         """Columns to search again: to a right one beyond some room on either side, or the rim."""
@@ -180,10 +196,12 @@ class Case:
                     cost[columns - start] += detection.clear_sky * below
             elif change == "too steep":
                 steps = self.steps[columns]
-                inner = np.clip(columns, first, last)  # on the truth alone, not where lines meet
-                np.subtract.at(
-                    cost, (inner - start, self.rows[inner]), detection.link_weight * steps
-                )
+                # saved on that side of the step which is farther from the path: the path must
+                # not save it, too, where the lines meet
+                before = np.maximum(columns - 1, start)
+                apart = np.abs(self.path_rows - self.rows)
+                side = np.where(apart[columns] >= apart[before], columns, before)
+                np.subtract.at(cost, (side - start, self.rows[side]), detection.link_weight * steps)
                 links = columns - start - 1
                 inside = (links >= 0) & (links < len(reach))
                 reach[links[inside]] = np.maximum(reach[links[inside]], steps[inside])

@@ -207,19 +207,20 @@ def failing_runs(wrong: np.ndarray[Any, np.dtype[np.bool_]]) -> list[tuple[int, 
 
 def _explain(case: Case, run: tuple[int, int], path: CostSplit, ideal: CostSplit) -> Segment:
     first, last = run
+    reach = case.excursion(first, last)
     trials: list[Trial] = []
     lines: dict[tuple[Change, ...], tuple[int, Int]] = {}
 
     def tried(*changes: Change) -> float:
         touched = np.zeros(case.truth.width, np.bool_)
         for change in changes:
-            touched |= case.columns_of(change, first, last)
-        lines[changes] = case.search(changes, first, last)
+            touched |= case.columns_of(change, *reach)
+        lines[changes] = case.search(changes, *reach)
         share = case.repaired(*lines[changes], first, last)
         trials.append(Trial(changes, int(touched.sum()), share))
         return share
 
-    usable = [one for one in CHANGES if case.columns_of(one, first, last).any()]
+    usable = [one for one in CHANGES if case.columns_of(one, *reach).any()]
     errors = case.errors[first : last + 1]
     cause: Cause
     contributing: tuple[Cause, ...] = ()
@@ -235,13 +236,13 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit, ideal: CostSplit
         elif len(usable) > 1 and tried(*usable) >= REPAIRED:
             chosen = _needed(usable, tried)
         if chosen:
-            main = max(chosen, key=lambda one: _effect(case, one, first, last))
+            main = max(chosen, key=lambda one: _effect(case, one, *reach))
             cause = main
             contributing = tuple(one for one in chosen if one != main)
             share = next(one.repaired for one in reversed(trials) if one.changes == chosen)
             others = [one.repaired for one in trials if main not in one.changes]
             margin = share - max(others, default=0.0)
-            evidence = _evidence(case, chosen, first, last, share)
+            evidence = _evidence(case, chosen, *reach, share)
         else:
             cause, chosen = "cheaper path", ("cheaper path",)
             best = max((one.repaired for one in trials), default=0.0)
@@ -373,7 +374,8 @@ def _evidence(case: Case, chosen: Sequence[Change], first: int, last: int, share
                 f"{_in_bins(detection, pixels)}, where {case.typical[0]:.2f} is typical"
             )
     found = "; ".join(said)
-    return f"{found[:1].upper()}{found[1:]}. With that made right, {share:.0%} of them are right."
+    mended = f"With that made right, {share:.0%} of the segment is right."
+    return f"{found[:1].upper()}{found[1:]}. {mended}"
 
 
 def _in_bins(detection: Detection, pixels: Int) -> str:

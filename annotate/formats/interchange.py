@@ -140,11 +140,11 @@ def read_labelme(source: Path, photos: Path, names: Mapping[str, str]) -> list[I
             if name is None or not runs:
                 continue
             skyline = from_points(runs, _side(document["imageWidth"]))
+            height = _side(document.get("imageHeight", 0) or size_of(name, photos)[0])
         except FormatError as error:
             raise FormatError(f"{file}: {error}") from error
         except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
             raise FormatError(f"{file} is not sound LabelMe: {error}.") from error
-        height = _side(document.get("imageHeight", 0) or size_of(name, photos)[0])
         found.append(Imported(name, check_size(name, skyline, photos, height), tags))
     return found
 
