@@ -195,6 +195,8 @@ def _diagnosis_tab(contents: Contents) -> rrb.Container:
     photo = _photo_view(
         "Yellow: the path with its cause made right. On the truth, orange: no edge; blue: starved",
         [entities.PHOTO, *lines, *marks],
+        # else frames and their words at a rim push the photo out of the view
+        rrb.VisualBounds2D(x_range=(0, contents.width), y_range=(0, contents.height)),
     )
     report = rrb.TextDocumentView(origin=entities.DIAGNOSIS, name="Why")
     costs = _photo_view("What they pay", [entities.STACKED_COSTS])
@@ -261,8 +263,11 @@ def _plot(entity: str, title: str) -> rrb.View:
     return rrb.BarChartView(origin=entity, name=title, plot_legend=legend)
 
 
-def _photo_view(title: str, shown: Iterable[str]) -> rrb.View:
+def _photo_view(
+    title: str, shown: Iterable[str], bounds: rrb.VisualBounds2D | None = None
+) -> rrb.View:
     return rrb.Spatial2DView(
+        visual_bounds=bounds,
         origin="/",
         contents=[f"+ /{entity}" for entity in shown],
         name=title,

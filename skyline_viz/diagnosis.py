@@ -397,7 +397,7 @@ def _cheaper(
     total = sum(dearer.values())
     then = f"Without the path's edges, {without:.0%} of the columns come back"
     return (
-        f"The path is {total:.1f} cheaper than the truth here, {dearer[stage]:.1f} of it by "
+        f"The path is {abs(total):.1f} cheaper than the truth here, {dearer[stage]:.1f} of it by "
         f"{stage}. No change of the truth brings back more than {best:.0%} of "
         f"the columns. {then}{'.' if without >= REPAIRED else '; yet other lines are cheaper.'}"
     )
