@@ -1,0 +1,1 @@
+"""The earlier methods, each in a file, behind the protocol of `methods.protocol`."""

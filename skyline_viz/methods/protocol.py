@@ -1,0 +1,125 @@
+"""What every method offers: a name, to detect and, where it learns, to be fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Protocol, Self, runtime_checkable
+
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.arrays import U8, Bool
+from skyline_viz.datasets import DatasetItem
+from skyline_viz.detection import Detection
+from skyline_viz.skyline import Skyline
+
+Model = Mapping[str, npt.NDArray[np.generic]]
+"""What a method has learned: arrays by name, as they are written to a file."""
+
+
+class MethodError(ValueError):
+    """A method is unknown, has not been trained, or lacks a package; the message says which."""
+
+
+class Method(Protocol):
+    """Finds skylines."""
+
+    @property
+    def name(self) -> str:
+        """Its name, one of `names.MethodName` or that of a file."""
+
+    def detect(self, photo: U8) -> Detection:
+        """Find the skyline of a photo.
+
+        Args:
+            photo: ``(H, W, 3)`` uint8 RGB.
+
+        Raises:
+            MethodError: It has not been trained.
+        """
+
+
+@runtime_checkable
+class Learner(Method, Protocol):
+    """A method that learns from photos with truth."""
+
+    @property
+    def family(self) -> str:
+        """Methods of one family learn the same, and can share it."""
+
+    def fit(self, items: Sequence[DatasetItem], seed: int = 0) -> Self:
+        """The method, trained on the photos of a data set; those without a truth are left out.
+
+        Args:
+            items: Photos with truth.
+            seed: Seed of all that is drawn.
+
+        Raises:
+            MethodError: A package that training needs is missing.
+            ValueError: No photo has a truth, or nothing can be learned from them.
+        """
+
+    def sharing(self, other: Self) -> Self:
+        """This method with what another of its family has learned."""
+
+
+@dataclass(frozen=True)
+class LearnedMethod:
+    """What methods with a `Model` have in common."""
+
+    name: str
+    """Its name."""
+
+    model: Model = field(default_factory=dict)
+    """What it has learned; empty before training."""
+
+    @property
+    def family(self) -> str:
+        """Methods of one family learn the same; here those whose names begin alike."""
+        return self.name
+
+    def learn(self, items: Sequence[DatasetItem], seed: int) -> Model:
+        """What there is to learn from photos with truth."""
+        raise NotImplementedError
+
+    def fit(self, items: Sequence[DatasetItem], seed: int = 0) -> Self:
+        """See `Learner.fit`."""
+        return replace(self, model=self.learn(items, seed))
+
+    def sharing(self, other: LearnedMethod) -> Self:
+        """See `Learner.sharing`."""
+        return replace(self, model=other.model)
+
+    def part(self, name: str) -> npt.NDArray[np.generic]:
+        """An array of the model.
+
+        Raises:
+            MethodError: The method has not been trained.
+        """
+        if name not in self.model:
+            raise MethodError(
+                f"{self.name} has learned nothing yet; train it with: "
+                f"skyline-viz train DATASET --method {self.name} --out FILE"
+            )
+        return self.model[name]
+
+
+def shown_to_learners(items: Sequence[DatasetItem]) -> list[tuple[U8, Skyline]]:
+    """Photos and truths of a data set, those without a truth left out.
+
+    Raises:
+        ValueError: No photo has a truth.
+    """
+    pairs = [(item, truth) for item in items if (truth := item.truth()) is not None]
+    if not pairs:
+        raise ValueError("training needs at least one photo with a true skyline.")
+    return [(item.photo(), truth) for item, truth in pairs]
+
+
+def near_truth(shape: tuple[int, int], truth: Skyline, band: float) -> Bool:
+    """``(H, W)`` pixels within `band` rows of the truth; all of a column where it is not visible."""
+    rows = np.arange(shape[0], dtype=np.float32)[:, None]
+    near: Bool = np.abs(rows - truth.rows[None, :]) <= band
+    near |= ~truth.visible[None, :]
+    return near
