@@ -1,5 +1,8 @@
 """The detector: a photo through all stages, and everything that they saw on the way."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TypedDict
@@ -8,8 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
-from skyline_viz.config import DetectorConfig
+from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
+from skyline_viz.datasets import DatasetItem
 from skyline_viz.detection import Detection, timed
 from skyline_viz.edges import edge_pixels, find_edges, to_grey
 from skyline_viz.filter_bank import FilterBank
@@ -86,6 +90,31 @@ class Detector:
     def name(self) -> str:
         """``default``, or ``paper`` with the published settings."""
         return "paper" if self.config == DetectorConfig.paper() else "default"
+
+    @property
+    def family(self) -> str:
+        """Detectors of one configuration learn the same filters."""
+        return f"filters of {self.config}"
+
+    def fit(self, items: Sequence[DatasetItem], seed: int = 0) -> Detector:
+        """The detector with filters that were learned from photos with truth.
+
+        Args:
+            items: Photos; those without a truth are left out.
+            seed: Seed of the negative samples.
+
+        Raises:
+            ValueError: No photo has a truth.
+        """
+        from skyline_viz.training import train  # noqa: PLC0415  # which uses this module
+
+        pairs = ((item.photo(), truth) for item in items if (truth := item.truth()) is not None)
+        bank = train(pairs, seed=seed, config=TrainingConfig(detector=self.config))
+        return replace(self, bank=bank)
+
+    def sharing(self, other: Detector) -> Detector:
+        """This detector with the filters of another one."""
+        return replace(self, bank=other.bank)
 
     def detect(self, photo: U8) -> FilterDetection:
         """Find the skyline of a photo.

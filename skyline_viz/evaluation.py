@@ -12,6 +12,7 @@ from skyline_viz.config import FILTER_SIZES, DetectorConfig, TrainingConfig
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.detector import Detector
 from skyline_viz.filter_bank import FilterBank
+from skyline_viz.methods.protocol import Method
 from skyline_viz.results import PhotoResult
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.training import GramMatrices, gather, solve
@@ -66,7 +67,7 @@ def cross_validate(
     )
     tests = [Test(item, detectors[item.name]) for item in items if item.name in detectors]
     tests.sort(key=lambda test: test.name)
-    results, more = _parted(run(_test, tests, workers=workers))
+    results, more = _parted(run(test_photo, tests, workers=workers))
     return results, failures + more
 
 
@@ -200,7 +201,7 @@ class Test:
     """A photo, and the detector that it is tested with."""
 
     item: DatasetItem
-    detector: Detector
+    detector: Method
 
     @property
     def name(self) -> str:
@@ -208,11 +209,12 @@ class Test:
         return self.item.name
 
 
-def _test(test: Test) -> PhotoResult:
+def test_photo(test: Test) -> PhotoResult:
+    """Detect and compare with the truth."""
     return _detect_and_compare(test.detector, test.item)
 
 
-def _detect_and_compare(detector: Detector, item: DatasetItem) -> PhotoResult:
+def _detect_and_compare(detector: Method, item: DatasetItem) -> PhotoResult:
     truth = _truth(item)
     photo = item.photo()
     warm_up()

@@ -7,6 +7,7 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -56,6 +57,39 @@ def worst_table(results: Sequence[PhotoResult]) -> "Table":
     return table
 
 
+def methods_table(results: Mapping[str, Sequence[PhotoResult]]) -> "Table":
+    """A line for each method, for a terminal."""
+    from rich.table import Table  # noqa: PLC0415
+
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("method")
+    for heading in (
+        "mean",
+        "st. dev.",
+        "median",
+        "min",
+        "max",
+        "< 4 px",
+        "gross",
+        "accuracy",
+        "ms",
+    ):
+        table.add_column(heading, justify="right")
+    for name, found in results.items():
+        one = Summary.of(found)
+        errors = (one.mean, one.standard_deviation, one.median, one.minimum, one.maximum)
+        good = f"{round(one.under_4_px * one.photos)}/{one.photos}" if found else "-"
+        table.add_row(
+            name,
+            *(f"{error:.2f}" for error in errors),
+            good,
+            f"{one.gross_misses}",
+            f"{one.segmentation_accuracy:.2%}",
+            f"{1000 * one.seconds:.0f}",
+        )
+    return table
+
+
 def write_summary(
     path: str | os.PathLike[str], summary: Summary, about: Mapping[str, object]
 ) -> None:
@@ -66,12 +100,31 @@ def write_summary(
         summary: The figures.
         about: What was evaluated and how; written before the figures.
     """
-    figures = {
-        name: None if isinstance(value, float) and math.isnan(value) else value
-        for name, value in asdict(summary).items()
-    }
-    document = {**about, "summary": figures}
+    document = {**about, "summary": _without_nan(summary)}
     write_text(path, json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def write_comparison(
+    folder: Path, results: Mapping[str, Sequence[PhotoResult]], about: Mapping[str, object]
+) -> None:
+    """Write ``methods.json``, summaries by method, and ``methods.csv``, a line a photo and method.
+
+    Args:
+        folder: Where to.
+        results: The results of each method.
+        about: What was evaluated and how; written before the figures.
+    """
+    summaries = {name: _without_nan(Summary.of(found)) for name, found in results.items()}
+    document = {**about, "methods": summaries}
+    text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
+    write_text(folder / "methods.json", text + "\n")
+    names = [field.name for field in fields(PhotoResult)]
+    lines = io.StringIO()
+    writer = csv.writer(lines, lineterminator="\n")
+    writer.writerow(["method", *names])
+    for method, found in results.items():
+        writer.writerows([method, *(getattr(one, name) for name in names)] for one in found)
+    write_text(folder / "methods.csv", lines.getvalue())
 
 
 def write_results(path: str | os.PathLike[str], results: Sequence[PhotoResult]) -> None:
@@ -134,6 +187,13 @@ def write_histogram(
         axes.spines[side].set_visible(False)
     with replacing(path) as temporary:
         FigureCanvasAgg(figure).print_figure(temporary)
+
+
+def _without_nan(summary: Summary) -> dict[str, object]:
+    return {
+        name: None if isinstance(value, float) and math.isnan(value) else value
+        for name, value in asdict(summary).items()
+    }
 
 
 def _figures(summary: Summary) -> list[tuple[str, str]]:

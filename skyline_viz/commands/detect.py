@@ -12,11 +12,13 @@ import tyro
 from skyline_viz.batch import Failure, run
 from skyline_viz.commands.inputs import Input, collect, output_folder
 from skyline_viz.commands.messages import UsageError, counted, status_after
+from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Folder, Preset, Switch, make_detector
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
     from skyline_viz.detector import Detector
+    from skyline_viz.methods.protocol import Method
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,9 @@ class Detect:
 
     out: Folder = Path("skylines")
     """Folder for NAME.csv: column, row of its first terrain pixel, and whether visible (1 or 0)."""
+
+    methods: MethodOptions = field(default_factory=Methods)
+    """Another method than ours."""
 
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
@@ -59,7 +64,7 @@ class Detect:
         if not self.photos:
             raise UsageError("which photos? Name at least one photo or folder.")
         inputs = collect(self.photos)
-        detector = make_detector(self.bank, self.config)
+        detector = self.methods.one() if self.methods.given else self._detector()
         output_folder(self.out, (one.item for one in inputs))
         wide = max(len(one.name) for one in inputs)
         failures = []
@@ -73,6 +78,9 @@ class Detect:
         if written > 1:
             print(f"{counted(written, 'skyline')} in {self.out}")
         return status_after(failures)
+
+    def _detector(self) -> Detector:
+        return make_detector(self.bank, self.config)
 
 
 @dataclass(frozen=True)
@@ -89,7 +97,7 @@ class _Found:
         return f"{self.name:<{wide}}  {size:>9}  {self.seconds:6.3f} s  {files}"
 
 
-def _detect(options: Detect, detector: Detector, photo: Input) -> _Found:
+def _detect(options: Detect, detector: Method, photo: Input) -> _Found:
     from skyline_viz.evaluation import warm_up  # noqa: PLC0415
 
     pixels = photo.item.photo()

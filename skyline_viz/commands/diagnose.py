@@ -11,6 +11,7 @@ import tyro
 from skyline_viz.batch import Failure, run
 from skyline_viz.commands.inputs import output_folder, with_truth
 from skyline_viz.commands.messages import UsageError, counted, say, status_after
+from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import (
     BankFile,
     Folder,
@@ -22,11 +23,11 @@ from skyline_viz.commands.settings import (
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from skyline_viz.datasets import DatasetItem
-    from skyline_viz.detector import Detector
     from skyline_viz.diagnosis_report import Diagnosed
+    from skyline_viz.methods.protocol import Method
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,9 @@ class Diagnose:
 
     out: OptionalFolder = None
     """Folder for segments.csv and diagnosis.json; made where it is missing."""
+
+    methods: MethodOptions = field(default_factory=Methods)
+    """Another method than ours; with --folds it is trained on the other folds."""
 
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
@@ -87,8 +91,14 @@ class Diagnose:
         self._tell(dataset.name, found)
         return status_after([*failures, *failed])
 
-    def _detectors(self, items: Sequence[DatasetItem]) -> tuple[dict[str, Detector], list[Failure]]:
+    def _detectors(
+        self, items: Sequence[DatasetItem]
+    ) -> tuple[Mapping[str, Method], list[Failure]]:
         """The detector of each photo, by its name."""
+        if self.methods.given:
+            from skyline_viz.methods.testing import fold_method  # noqa: PLC0415
+
+            return fold_method(items, self.methods.one(), self.folds, self.seed, self.workers)
         if not self.folds:
             detector = make_detector(self.bank, self.config)
             return {item.name: detector for item in items}, []
@@ -99,7 +109,7 @@ class Diagnose:
         )
 
     def _diagnose(
-        self, items: Sequence[DatasetItem], detectors: dict[str, Detector]
+        self, items: Sequence[DatasetItem], detectors: Mapping[str, Method]
     ) -> tuple[list[Diagnosed], list[Failure]]:
         from skyline_viz.diagnosis_report import diagnose_item  # noqa: PLC0415
         from skyline_viz.evaluation import Test  # noqa: PLC0415

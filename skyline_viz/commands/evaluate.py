@@ -9,12 +9,15 @@ import tyro
 
 from skyline_viz.commands.inputs import output_folder, with_truth
 from skyline_viz.commands.messages import UsageError, counted, say, status_after
+from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Folder, OptionalFolder, Preset, make_detector
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from skyline_viz.batch import Failure
-    from skyline_viz.datasets import Dataset
+    from skyline_viz.datasets import Dataset, DatasetItem
     from skyline_viz.results import PhotoResult
 
 
@@ -30,6 +33,9 @@ class Evaluate:
 
     out: OptionalFolder = None
     """Folder for summary.json, photos.csv and histogram.png; made where it is missing."""
+
+    methods: MethodOptions = field(default_factory=Methods)
+    """Methods to compare; the detector with the settings below unless given."""
 
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
@@ -58,6 +64,8 @@ class Evaluate:
         items = with_truth(dataset)
         if self.out:
             output_folder(self.out, dataset)
+        if self.methods.given:
+            return self._compare(dataset, items)
         from skyline_viz.evaluation import cross_validate, evaluate  # noqa: PLC0415
 
         if self.folds:
@@ -82,6 +90,36 @@ class Evaluate:
         if self.out:
             print(f"summary.json, photos.csv and histogram.png in {self.out}")
         return status_after(failures)
+
+    def _compare(self, dataset: Dataset, items: Sequence[DatasetItem]) -> int:
+        """Evaluate the methods that were named."""
+        from rich.console import Console  # noqa: PLC0415
+
+        from skyline_viz import evaluation_report as report  # noqa: PLC0415
+        from skyline_viz.methods.testing import compare_methods  # noqa: PLC0415
+
+        if self.bank:
+            raise UsageError("--bank is for the detector alone; name the file as a --method.")
+        methods = self.methods.chosen()
+        found = compare_methods(
+            items, methods, folds=self.folds, seed=self.seed, workers=self.workers
+        )
+        console = Console(highlight=False, width=110)
+        with console.capture() as captured:
+            how = f"{self.folds}-fold cross-validation" if self.folds else "as they are"
+            console.print(f"{dataset.name}: {counted(len(items), 'photo')}, {how}; A_err in px")
+            console.print(report.methods_table(found.results))
+        print(captured.get(), end="")
+        if self.out:
+            about = {
+                "dataset": dataset.name,
+                "folds": self.folds,
+                "seed": self.seed,
+                "failed": [asdict(failure) for failure in found.failures],
+            }
+            report.write_comparison(self.out, found.results, about)
+            print(f"methods.json and methods.csv in {self.out}")
+        return status_after(found.failures)
 
     def _write(
         self,

@@ -4,25 +4,36 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
 from skyline_viz.commands.inputs import output_folder, with_truth
-from skyline_viz.commands.messages import UsageError, counted, status_after
+from skyline_viz.commands.messages import GOOD, UsageError, counted, status_after
 from skyline_viz.commands.settings import Folder, Preset
 from skyline_viz.config import TrainingConfig
+from skyline_viz.methods.names import MethodName
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from skyline_viz.datasets import DatasetItem
+
+MethodToTrain: TypeAlias = Annotated[MethodName, tyro.conf.arg(metavar="METHOD")]
 
 
 @dataclass(frozen=True)
 class Train:
-    """Learn a filter bank from photos with truth."""
+    """Learn a filter bank, or one of the earlier methods, from photos with truth."""
 
     dataset: tyro.conf.Positional[Folder]
     """Folder of a data set, in a published layout or plain."""
 
     out: Annotated[Path, tyro.conf.arg(metavar="FILE")]
     """File for the filter bank, usually .npz; a file that is there is replaced."""
+
+    method: MethodToTrain = "default"
+    """What to train: our filter bank, or one of the earlier methods that learn."""
 
     seed: int = 0
     """Seed of the negative samples; the same seed and photos give the same bank."""
@@ -47,6 +58,8 @@ class Train:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
         items = with_truth(dataset)
         output_folder(self.out.parent, ())
+        if self.method not in ("default", "paper"):
+            return self._train_method(dataset.name, items)
         from skyline_viz.evaluation import train_on  # noqa: PLC0415
 
         bank, failures = train_on(
@@ -59,3 +72,16 @@ class Train:
         print(f"filters       {bank.size} x {bank.size} pixels")
         print(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
+
+    def _train_method(self, dataset: str, items: Sequence[DatasetItem]) -> int:
+        from skyline_viz.methods.protocol import LearnedMethod  # noqa: PLC0415
+        from skyline_viz.methods.registry import Trained, make_method, save_method  # noqa: PLC0415
+
+        method = make_method(self.method)
+        if not isinstance(method, LearnedMethod):
+            raise UsageError(f"the method {self.method} has nothing to learn.")
+        fitted = method.fit(items, self.seed)
+        save_method(fitted, self.out, Trained(dataset, len(items), self.seed))
+        print(f"{self.method}, trained on {counted(len(items), 'photo')} of {dataset}")
+        print(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
+        return GOOD

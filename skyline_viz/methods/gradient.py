@@ -1,4 +1,4 @@
-"""The gradient cost ``G_r`` of Ahmad et al. (equations 4 to 7): strong and even gradients are cheap."""
+"""The gradient cost ``G_r`` of Ahmad et al. (equations 4 to 7): cheap where strong and even."""
 
 from __future__ import annotations
 

@@ -118,7 +118,7 @@ def shown_to_learners(items: Sequence[DatasetItem]) -> list[tuple[U8, Skyline]]:
 
 
 def near_truth(shape: tuple[int, int], truth: Skyline, band: float) -> Bool:
-    """``(H, W)`` pixels within `band` rows of the truth; all of a column where it is not visible."""
+    """``(H, W)`` pixels within `band` rows of the truth; whole columns where it is not visible."""
     rows = np.arange(shape[0], dtype=np.float32)[:, None]
     near: Bool = np.abs(rows - truth.rows[None, :]) <= band
     near |= ~truth.visible[None, :]

@@ -1,0 +1,76 @@
+"""The options that choose methods: ours, the earlier ones, and networks from files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeAlias
+
+import tyro
+
+from skyline_viz.commands.messages import UsageError
+
+if TYPE_CHECKING:
+    from skyline_viz.methods.protocol import Method
+
+MethodTexts: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="METHOD [METHOD ...]")]
+
+
+@dataclass(frozen=True)
+class Methods:
+    """Which methods to use."""
+
+    method: MethodTexts = ()
+    """Methods by name (default, paper, edges, gradient, svm-dcsi, ...) or file of a trained one."""
+
+    network: Annotated[Path | None, tyro.conf.arg(metavar="FILE.onnx")] = None
+    """A network that segments the sky, as one more method."""
+
+    sky_class: int = 1
+    """Which class of the network is sky, counted from 0."""
+
+    @property
+    def given(self) -> bool:
+        """Whether any was named."""
+        return bool(self.method or self.network)
+
+    def chosen(self) -> list[Method]:
+        """The methods, in the order named.
+
+        Raises:
+            UsageError: One is named twice.
+            MethodError: There is none of that name, or its file is damaged.
+        """
+        from skyline_viz.methods.registry import find_method  # noqa: PLC0415
+
+        found = [find_method(text) for text in self.method]
+        if self.network is not None:
+            from skyline_viz.methods.sky_network import SkyNetwork  # noqa: PLC0415
+
+            found.append(SkyNetwork.load(self.network, self.sky_class))
+        names = [one.name for one in found]
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice:
+            raise UsageError(f"the method {twice[0]} is named twice.")
+        return found
+
+    def one(self, instead_of: Sequence[str] = ()) -> Method:
+        """The only method.
+
+        Args:
+            instead_of: Options that were given and choose another detector.
+
+        Raises:
+            UsageError: There are several, or one of these options was given, too.
+        """
+        if instead_of:
+            raise UsageError(f"--method brings its own settings; leave out {instead_of[0]}.")
+        found = self.chosen()
+        if len(found) != 1:
+            raise UsageError(f"one method can be used here, and {len(found)} are named.")
+        return found[0]
+
+
+MethodOptions: TypeAlias = Annotated[Methods, tyro.conf.arg(name="")]
+"""`Methods` without a prefix of their own."""

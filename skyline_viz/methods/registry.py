@@ -1,0 +1,152 @@
+"""Methods by name, and trained ones as files."""
+
+from __future__ import annotations
+
+import json
+import os
+import zipfile
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
+from importlib import import_module
+from pathlib import Path
+from typing import Any, get_args
+
+import numpy as np
+
+from skyline_viz.config import DetectorConfig
+from skyline_viz.detector import Detector
+from skyline_viz.files import replacing
+from skyline_viz.filter_bank import FilterBank, FilterBankError
+from skyline_viz.methods.names import MethodName
+from skyline_viz.methods.protocol import LearnedMethod, Method, MethodError
+
+NAMES: tuple[str, ...] = get_args(MethodName)
+"""All names, in the order of the paper's Table I."""
+
+FORMAT, VERSION = "skyline-method", 1
+
+_CLASSES = {
+    "edges": ("edges_only", "EdgesOnly"),
+    "gradient": ("gradient", "GradientCost"),
+    "sift-hog": ("sift_hog", "SiftHog"),
+    "svm": ("dense_scores", "SvmScores"),
+    "cnn": ("cnn_scores", "CnnScores"),
+    "fcn": ("parsing", "SceneParsing"),
+    "segnet": ("parsing", "SceneParsing"),
+}
+"""Module and class of the methods whose names begin so."""
+
+
+@dataclass(frozen=True)
+class Trained:
+    """What a trained method was learned from."""
+
+    dataset: str = ""
+    """Name of the data set."""
+
+    images: int = 0
+    """Number of photos."""
+
+    seed: int = 0
+    """Seed of what was drawn."""
+
+
+def make_method(name: str) -> Method:
+    """A method by its name; one that learns has learned nothing yet, but for our detector.
+
+    Raises:
+        MethodError: There is none of that name.
+    """
+    if name in ("default", "paper"):
+        return Detector(config=DetectorConfig.paper() if name == "paper" else DetectorConfig())
+    if name not in NAMES:
+        raise MethodError(f"there is no method {name}; there are {', '.join(NAMES)}.")
+    module, kind = next(home for start, home in _CLASSES.items() if name.startswith(start))
+    method: Method = getattr(import_module(f"skyline_viz.methods.{module}"), kind)(name=name)
+    return method
+
+
+def find_method(text: str) -> Method:
+    """A method by its name, or by the file of a trained one or of a filter bank.
+
+    Raises:
+        MethodError: It is neither.
+    """
+    if text in NAMES:
+        return make_method(text)
+    path = Path(text)
+    if path.suffix != ".npz" and not path.exists():
+        raise MethodError(
+            f"{text} is neither a method nor the file of a trained one; "
+            f"methods are {', '.join(NAMES)}."
+        )
+    return load_method(path)
+
+
+def save_method(method: LearnedMethod, path: str | os.PathLike[str], trained: Trained) -> None:
+    """Write a trained method as one ``.npz`` file, whole or not at all."""
+    settings = {
+        one.name: getattr(method, one.name)
+        for one in fields(method)
+        if one.name not in ("name", "model")
+    }
+    header = {
+        "format": FORMAT,
+        "version": VERSION,
+        "name": method.name,
+        "settings": settings,
+        "trained": asdict(trained),
+    }
+    arrays: dict[str, Any] = {
+        "header": np.frombuffer(json.dumps(header).encode(), np.uint8),
+        **method.model,
+    }
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        np.savez_compressed(file, **arrays)
+
+
+def load_method(path: Path) -> Method:
+    """Read what `save_method` wrote, or a filter bank; nothing is ever unpickled.
+
+    Raises:
+        MethodError: Missing, damaged, another kind of file, or of another version.
+    """
+    try:
+        header, arrays = _read(path)
+    except FileNotFoundError:
+        raise MethodError(f"{path} does not exist.") from None
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        raise MethodError(f"{path} is damaged or no trained method.") from error
+    if header.get("format") != FORMAT:
+        try:
+            return Detector(FilterBank.load(path))
+        except FilterBankError as error:
+            raise MethodError(f"{path} is neither a trained method nor a filter bank.") from error
+    if header.get("version") != VERSION:
+        raise MethodError(f"{path} is of version {header.get('version')}, not {VERSION}.")
+    try:
+        made: Any = make_method(str(header["name"]))
+        loaded: Method = type(made)(name=header["name"], model=arrays, **header["settings"])
+    except (KeyError, TypeError) as error:
+        raise MethodError(f"{path} is damaged: {error}.") from error
+    return loaded
+
+
+def model_bytes(method: Method) -> int:
+    """Size of what a method has learned, in bytes, as it lies in memory."""
+    if isinstance(method, Detector):
+        return method.bank.filters.nbytes
+    if isinstance(method, LearnedMethod):
+        return sum(array.nbytes for array in method.model.values())
+    return 0
+
+
+def _read(path: Path) -> tuple[dict[str, Any], Mapping[str, Any]]:
+    with path.open("rb") as file:
+        if not zipfile.is_zipfile(file):
+            raise ValueError("no archive")
+    with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
+        header = json.loads(archive["header"].tobytes())
+        if not isinstance(header, dict):
+            raise ValueError("no header")
+        return header, {name: archive[name] for name in archive.files if name != "header"}
