@@ -11,7 +11,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import rerun.blueprint as rrb
@@ -24,6 +24,20 @@ TABS = ("Skyline", "Stages", "Tensor", "Filter bank", "Columns")
 
 _BLACK = (12, 12, 12)
 _LINES = (entities.PATH, entities.TRUTH, entities.ALTERNATIVE)
+
+
+@dataclass(frozen=True)
+class MethodContents:
+    """What a recording holds of another method."""
+
+    name: str
+    """Its name."""
+
+    filters: bool = False
+    """Whether it is our detector, with other settings or filters."""
+
+    maps: tuple[str, ...] = ()
+    """Names of its further maps."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +77,9 @@ class Contents:
     compared: str = ""
     """Name of the second detection; nothing without one."""
 
+    methods: tuple[MethodContents, ...] = ()
+    """Other methods on the photo."""
+
     swept: str = ""
     """Timeline of the setting that is swept first; nothing without a sweep."""
 
@@ -83,6 +100,8 @@ def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blue
         *([_diagnosis_tab(contents)] if contents.diagnosed else []),
         *([_sweep_tab(contents)] if contents.swept else []),
         *([_compare_tab(contents)] if contents.compared else []),
+        *([_methods_tab(contents)] if contents.methods else []),
+        *(_method_tab(contents, one) for one in contents.methods),
         *([_photos_tab(contents)] if contents.photos > 1 else []),
     ]
     return _with_panels(tabs, contents, active)
@@ -243,6 +262,49 @@ def _compare_tab(contents: Contents) -> rrb.Container:
     return rrb.Grid(*views, text, other, grid_columns=2, row_shares=shares, name="Compare")
 
 
+def _methods_tab(contents: Contents) -> rrb.Container:
+    lines = _with_halos([entities.PATH, entities.TRUTH, entities.METHOD_LINES])
+    photo = _photo_view(
+        "What each method finds",
+        [entities.PHOTO, *lines],
+        rrb.VisualBounds2D(x_range=(0, contents.width), y_range=(0, contents.height)),
+    )
+    table = rrb.TextDocumentView(origin=entities.METHODS_TABLE, name="Methods")
+    costs = [
+        _photo_view(
+            f"{one.name}: nodal cost",
+            [
+                below(_stages_of(one), entities.COST),
+                *_with_halos([f"{entities.METHOD_LINES}/{one.name}"]),
+            ],
+        )
+        for one in contents.methods[:3]
+    ]
+    foot = rrb.Horizontal(table, *costs)
+    return rrb.Vertical(photo, foot, row_shares=[3, 2], name="Methods")
+
+
+def _method_tab(contents: Contents, one: MethodContents) -> rrb.Container:
+    """The stages of a method, as the stages of ours."""
+    own = Contents(contents.height, contents.width, filters=one.filters, maps=one.maps)
+    line = f"{entities.METHOD_LINES}/{one.name}"
+    views = {}
+    for title, shown in _figure_1(own).items():
+        if title.endswith("Path"):
+            views[title] = [entities.PHOTO, *_with_halos([line, entities.TRUTH])]
+        elif title.endswith("Photo"):
+            continue
+        else:
+            views[title] = [below(_stages_of(one), stage) for stage in shown]
+    pictures = [_photo_view(title, shown) for title, shown in views.items()]
+    report = rrb.TextDocumentView(origin=below(_stages_of(one), entities.REPORT), name="Report")
+    return _grid(contents, [*pictures, report], one.name)
+
+
+def _stages_of(one: MethodContents) -> str:
+    return f"{entities.METHODS}/{one.name}"
+
+
 def _photos_tab(contents: Contents) -> rrb.Container:
     metrics = [("a_err", "A_err of each photo (px)")] if contents.truth else []
     metrics.append(("margin", "Margin of each photo (cost)"))
@@ -279,7 +341,7 @@ def _with_halos(lines: Iterable[str] = _LINES) -> list[str]:
     return [f"{line}/**" for line in lines]
 
 
-def _grid(contents: Contents, views: list[rrb.View], name: str) -> rrb.Container:
+def _grid(contents: Contents, views: Sequence[rrb.View], name: str) -> rrb.Container:
     """Two columns for wide photos, three for others: a panorama needs the width of the window."""
     columns = 2 if contents.width > 1.6 * contents.height else 3
     return rrb.Grid(*views, grid_columns=min(columns, len(views)), name=name)

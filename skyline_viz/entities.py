@@ -33,6 +33,15 @@ DETOUR = "detour"
 MAPS = "maps"
 """`MAPS`/NAME: further maps of another method, such as its dense scores."""
 
+METHODS = "methods"
+"""Parent of the stages of other methods: `METHODS`/NAME/STAGE."""
+
+METHOD_LINES = "skyline/methods"
+"""`METHOD_LINES`/NAME: the skyline that another method found."""
+
+METHODS_TABLE = "methods_table"
+"""How the methods compare on the photo, in Markdown."""
+
 EDGE_PIXELS = "edge_pixels"
 """Exact values at the edge pixels: edge_row, edge_column, bin, strength, coherence, orientation,
 score, cost."""

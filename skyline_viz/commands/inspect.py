@@ -14,6 +14,7 @@ import tyro
 from skyline_viz.batch import Failure, sentence
 from skyline_viz.commands.inputs import Input, collect, with_truth
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, status_after
+from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import (
     BankFile,
     OptionalFolder,
@@ -29,10 +30,11 @@ from skyline_viz.progress import ProgressBar
 if TYPE_CHECKING:
     import rerun as rr
 
-    from skyline_viz.blueprints import Contents
+    from skyline_viz.blueprints import Contents, MethodContents
     from skyline_viz.detection import Detection
     from skyline_viz.detector import Detector, FilterDetection
     from skyline_viz.filter_bank import FilterBank
+    from skyline_viz.methods.protocol import Method
     from skyline_viz.recording import Fidelity
     from skyline_viz.skyline import Skyline
     from skyline_viz.sweep import Sweep
@@ -82,6 +84,9 @@ class Inspect:
     sweep_training: OptionalFolder = None
     """Data set to train filters of other sizes on, for --sweep; the photo itself is left out."""
 
+    methods: MethodOptions = field(default_factory=Methods)
+    """Other methods beside ours: their lines in named colours, a tab for each."""
+
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
 
@@ -102,11 +107,15 @@ class Inspect:
         if self.sweep and len(inputs) > 1:
             raise UsageError(f"--sweep belongs to one photo, and there are {len(inputs)}.")
         detector = make_detector(self.bank, self.config)
-        other = None if self.compare is None else self._second(self.compare)
         failures: list[Failure] = []
-        sizes = self._train_sizes(inputs[0], detector, failures) if self.sweep_training else []
+        using = _Using(
+            detector,
+            None if self.compare is None else self._second(self.compare),
+            self._train_sizes(inputs[0], detector, failures) if self.sweep_training else [],
+            self._methods(),
+        )
         with self._folder() as folder:
-            files = self._record(inputs, detector, other, sizes, folder, failures)
+            files = self._record(inputs, using, folder, failures)
             if files:
                 self._show(files)
         return status_after(failures) or (GOOD if files else SOME_FAILED)
@@ -132,6 +141,17 @@ class Inspect:
             return make_detector(self.bank, config_of("paper" if name == "paper" else "default"))
         return make_detector(Path(name), self.config)
 
+    def _methods(self) -> list[Method]:
+        from skyline_viz.method_recording import COLOURS  # noqa: PLC0415
+
+        methods = self.methods.chosen()
+        if len(methods) > len(COLOURS):
+            raise UsageError(
+                f"{len(COLOURS)} methods at most can be told apart on a photo, "
+                f"and {len(methods)} are named."
+            )
+        return methods
+
     @contextmanager
     def _folder(self) -> Iterator[Path]:
         """Where recordings are written: where --save says, else for as long as they are shown."""
@@ -146,9 +166,7 @@ class Inspect:
     def _record(
         self,
         inputs: Sequence[Input],
-        detector: Detector,
-        other: Detector | None,
-        sizes: Sequence[FilterBank],
+        using: _Using,
         folder: Path,
         failures: list[Failure],
     ) -> list[Path]:
@@ -169,7 +187,7 @@ class Inspect:
                     for step, one in enumerate(group):
                         recording.set_time("image", sequence=step)
                         try:
-                            logged = self._log(recording, one, detector, other, sizes, len(group))
+                            logged = self._log(recording, one, using, len(group))
                             contents = contents or logged
                         except of_a_photo as problem:
                             failures.append(Failure(one.name, sentence(problem)))
@@ -182,9 +200,7 @@ class Inspect:
         self,
         recording: rr.RecordingStream,
         one: Input,
-        detector: Detector,
-        other: Detector | None,
-        sizes: Sequence[FilterBank],
+        using: _Using,
         together: int,
     ) -> Contents:
         """Log a photo of `together` ones, and say what the recording now holds."""
@@ -196,16 +212,17 @@ class Inspect:
 
         photo, truth = one.item.photo(), self._truth_of(one)
         warm_up()
-        found = detector.detect(photo)
+        found = using.detector.detect(photo)
         fidelity: Fidelity = "full" if together <= FULL_AT_MOST else "lean"
         alone = together == 1
         if alone:  # what is logged below is there in every column
             recording.set_time("column", sequence=0)
-        sweeps = _begin_sweeps(recording, found, sizes) if self.sweep else []
+        sweeps = _begin_sweeps(recording, found, using.sizes) if self.sweep else []
         verdict = log_detection(recording, found, truth, name=one.name, fidelity=fidelity)
-        if other:
-            second = other.detect(photo)
+        if using.other:
+            second = using.other.detect(photo)
             log_comparison(recording, found, second, truth, str(self.compare), fidelity)
+        methods = _log_methods(recording, found, using.methods, truth, fidelity)
         diagnosed = (
             alone and truth is not None and _log_diagnosis(recording, found, truth, one.name)
         )
@@ -226,6 +243,7 @@ class Inspect:
             path_bins=alone,
             photos=together,
             compared=self.compare or "",
+            methods=methods,
             swept=sweeps[0].timeline if sweeps else "",
         )
 
@@ -284,6 +302,16 @@ class Inspect:
             viewer.wait_for(viewer.open_viewer(files))
 
 
+@dataclass(frozen=True)
+class _Using:
+    """What photos are looked at with."""
+
+    detector: Detector
+    other: Detector | None
+    sizes: Sequence[FilterBank]
+    methods: Sequence[Method]
+
+
 class _Nothing(Exception):  # noqa: N818  # no error: there is nothing to write
     """No photo of a recording could be read."""
 
@@ -300,6 +328,28 @@ def _log_diagnosis(
         return False
     log_diagnosis(recording, diagnosis, found, truth, name)
     return True
+
+
+def _log_methods(
+    recording: rr.RecordingStream,
+    found: Detection,
+    methods: Sequence[Method],
+    truth: Skyline | None,
+    fidelity: Fidelity,
+) -> tuple[MethodContents, ...]:
+    """Detect with other methods and log it; return what the recording now holds of them."""
+    if not methods:
+        return ()
+    from skyline_viz.blueprints import MethodContents  # noqa: PLC0415
+    from skyline_viz.detector import FilterDetection  # noqa: PLC0415
+    from skyline_viz.method_recording import log_methods  # noqa: PLC0415
+
+    others = [method.detect(found.photo) for method in methods]
+    log_methods(recording, found, others, truth, fidelity)
+    return tuple(
+        MethodContents(one.method, isinstance(one, FilterDetection), tuple(one.maps))
+        for one in others
+    )
 
 
 def _begin_sweeps(
