@@ -291,11 +291,9 @@ def _method_tab(contents: Contents, one: MethodContents) -> rrb.Container:
     views = {}
     for title, shown in _figure_1(own).items():
         if title.endswith("Path"):
-            views[title] = [entities.PHOTO, *_with_halos([line, entities.TRUTH])]
-        elif title.endswith("Photo"):
-            continue
-        else:
-            views[title] = [below(_stages_of(one), stage) for stage in shown]
+            views["Path"] = [entities.PHOTO, *_with_halos([line, entities.TRUTH])]
+        elif not title.endswith("Photo"):
+            views[title.split(") ", 1)[1]] = [below(_stages_of(one), stage) for stage in shown]
     pictures = [_photo_view(title, shown) for title, shown in views.items()]
     report = rrb.TextDocumentView(origin=below(_stages_of(one), entities.REPORT), name="Report")
     return _grid(contents, [*pictures, report], one.name)

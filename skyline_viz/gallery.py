@@ -21,18 +21,23 @@ from pathlib import Path
 from time import monotonic
 from typing import Any
 
+import numpy as np
+
 from skyline_viz.batch import Failure, run
 from skyline_viz.causes import Cause
+from skyline_viz.comparison import log_comparison
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.detector import Detector
 from skyline_viz.diagnosis import diagnose
 from skyline_viz.diagnosis_recording import log_diagnosis
 from skyline_viz.evaluation import warm_up
 from skyline_viz.files import write_text
+from skyline_viz.methods.protocol import Method
+from skyline_viz.methods.registry import method_digest
 from skyline_viz.recording import log_detection, new_recording
 from skyline_viz.report import listed_segments
 
-VERSION = 2
+VERSION = 3
 """Of recordings and gallery.json; all of an earlier one are made anew."""
 
 _FLAGS_VERSION = 1  # of flags.json, which outlives the others
@@ -81,6 +86,18 @@ class Entry:
     causes: tuple[Cause, ...] | None = None
     """Why it went wrong, see `diagnosis.Diagnosis.causes`; nothing where it is right, None without
     a truth."""
+
+    method: str = "default"
+    """Name of the method."""
+
+    compared: str = ""
+    """Name of the method beside the first; nothing without one."""
+
+    other_a_err: float | None = None
+    """Mean error of its line in pixels."""
+
+    difference: float | None = None
+    """Mean distance between both lines, in pixels."""
 
     @property
     def cause(self) -> Cause | None:
@@ -163,25 +180,30 @@ class Gallery:
         _write(self.folder / "flags.json", "flags", said, _FLAGS_VERSION)
 
     def build(
-        self, shots: Sequence[Shot], detector: Detector, workers: int = 0
+        self,
+        shots: Sequence[Shot],
+        method: Method,
+        beside: Method | None = None,
+        workers: int = 0,
     ) -> Iterator[Entry | Failure]:
         """Detect and record what is not there yet; yield each photo's entry, or why it failed.
 
         Args:
             shots: The photos.
-            detector: The detector.
+            method: What detects.
+            beside: A second method, to compare with.
             workers: Number of processes, see `batch.run`.
 
         Raises:
             GalleryError: The gallery's file is damaged.
         """
         known = self.entries()
-        digest = _digest_of(detector)
+        looks = _Looks(method, beside, _digest_of(method) + (_digest_of(beside) if beside else ""))
         tasks = [_Task(shot.name, shot.item, known.get(shot.name)) for shot in shots]
         entries = {shot.name: known[shot.name] for shot in shots if shot.name in known}
         saved = monotonic()
         try:
-            for outcome in run(partial(_work, self, detector, digest), tasks, workers=workers):
+            for outcome in run(partial(_work, self, looks), tasks, workers=workers):
                 if isinstance(outcome, Entry):
                     entries[outcome.name] = outcome
                 else:
@@ -197,11 +219,18 @@ class Gallery:
 def by_need(entries: Sequence[Entry]) -> list[Entry]:
     """Entries in the order in which to look at them.
 
-    Those with a truth first, the largest error before; then those without, the least sure before.
+    Where two methods are compared, those on which they differ most first. Else those with a truth
+    first, the largest error before; then those without, the least sure before.
     """
     return sorted(
         entries,
-        key=lambda one: (one.a_err is None, -(one.a_err or 0.0), one.margin, one.name),
+        key=lambda one: (
+            -(one.difference or 0.0),
+            one.a_err is None,
+            -(one.a_err or 0.0),
+            one.margin,
+            one.name,
+        ),
     )
 
 
@@ -212,15 +241,23 @@ class _Task:
     known: Entry | None
 
 
-def _work(gallery: Gallery, detector: Detector, digest: str, task: _Task) -> Entry:
+@dataclass(frozen=True)
+class _Looks:
+    method: Method
+    beside: Method | None
+    digest: str
+
+
+def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     item = task.item
-    made_from = _digest_of_files(digest, item)
+    made_from = _digest_of_files(looks.digest, item)
     file = gallery.recording(task.name)
     if task.known and task.known.made_from == made_from and file.exists():
         return replace(task.known, photo=str(item.photo_path))
     photo, truth = item.photo(), item.truth()
     warm_up()
-    detection = detector.detect(photo)
+    detection = looks.method.detect(photo)
+    other = looks.beside.detect(photo) if looks.beside else None
     with new_recording(file, task.name) as recording:
         verdict = log_detection(recording, detection, truth, name=task.name, fidelity="lean")
         causes = None
@@ -228,12 +265,24 @@ def _work(gallery: Gallery, detector: Detector, digest: str, task: _Task) -> Ent
             diagnosis = diagnose(detection, truth)
             log_diagnosis(recording, diagnosis, detection, truth, task.name, fidelity="lean")
             causes = diagnosis.causes
+        against: dict[str, Any] = {}
+        if other is not None:
+            beside = log_comparison(recording, detection, other, truth, other.method, "lean")
+            apart = np.abs(other.skyline.rows - detection.skyline.rows).mean()
+            against = {
+                "compared": other.method,
+                "other_a_err": beside.a_err,
+                "difference": float(apart),
+            }
     photo_file = str(item.photo_path)
-    return Entry(task.name, photo_file, made_from, causes=causes, **vars(verdict))
+    about = {"method": detection.method, "causes": causes, **against, **vars(verdict)}
+    return Entry(task.name, photo_file, made_from, **about)
 
 
-def _digest_of(detector: Detector) -> str:
-    bank = detector.bank
+def _digest_of(method: Method) -> str:
+    if not isinstance(method, Detector):
+        return method_digest(method)
+    bank, detector = method.bank, method
     digest = hashlib.sha256(f"{VERSION} {detector.config} {bank.bins} {bank.provenance}".encode())
     for array in (bank.filters, bank.samples, bank.terrain):
         digest.update(array.tobytes())

@@ -85,11 +85,14 @@ def served(
         client = server.client()
         photos = client.get_dataset(_DATASET)
         layout = Path(folder) / "stages.rbl"
+        compared = next((entry.compared for entry in entries), "")
         contents = Contents(
             height=519,
             width=1388,  # most photos are wider than high
             truth=truth,
             bank=False,
+            filters=entries[0].method in ("default", "paper"),
+            compared=compared,
             diagnosed=any(entry.causes for entry in entries),
             stacked_costs=False,
         )
@@ -98,7 +101,7 @@ def served(
         table = client.create_table(_TABLE, _SCHEMA)
         table.append(**_columns(entries, flags, photos))
         cards = Path(folder) / "cards.rbl"
-        _cards(truth, cause).save(_TABLE, cards)
+        _cards(truth, cause, compared).save(_TABLE, cards)
         table.register_blueprint(cards.as_uri())
         address = f"{server.url()}/entry/{table.id}"
         one = ServedGallery(address, gallery, table, flags, client)
@@ -116,6 +119,8 @@ _SCHEMA = pa.schema(
         pa.field("photo", pa.utf8()),
         pa.field("a_err", pa.float32()),
         pa.field("worst", pa.utf8()),
+        pa.field("difference", pa.float32()),
+        pa.field("other_a_err", pa.float32()),
         pa.field("margin", pa.float32()),
         pa.field("wrong", pa.utf8()),
         pa.field("cause", pa.utf8()),
@@ -135,8 +140,10 @@ def _columns(
     return {
         "name": [entry.name for entry in entries],
         "photo": [photos.segment_url(entry.name) for entry in entries],
-        "a_err": [None if one.a_err is None else round(one.a_err, 2) for one in entries],
+        "a_err": [_rounded(one.a_err) for one in entries],
         "worst": [_worst(entry) for entry in entries],
+        "difference": [_rounded(one.difference) for one in entries],
+        "other_a_err": [_rounded(one.other_a_err) for one in entries],
         "margin": [round(entry.margin, 2) for entry in entries],
         "wrong": [entry.wrong or "none" for entry in entries],
         "cause": [None if one.causes is None else one.cause or "none" for one in entries],
@@ -152,10 +159,15 @@ def _worst(entry: Entry) -> str:
     return f"{entry.worst_error:.0f} px at {entry.worst_column}"
 
 
-def _cards(truth: bool, cause: Cause | None) -> rrt.TableBlueprint:
+def _rounded(value: float | None) -> float | None:
+    return None if value is None else round(value, 2)
+
+
+def _cards(truth: bool, cause: Cause | None, compared: str) -> rrt.TableBlueprint:
+    lines = (entities.PATH, entities.TRUTH, *([entities.ALTERNATIVE] if compared else []))
     thumbnail = rrb.Spatial2DView(
         origin="/",
-        contents=[f"+ /{entities.PHOTO}", f"+ /{entities.PATH}/**", f"+ /{entities.TRUTH}/**"],
+        contents=[f"+ /{entities.PHOTO}", *(f"+ /{line}/**" for line in lines)],
         name="skyline",
     )
     errors = [
@@ -164,8 +176,12 @@ def _cards(truth: bool, cause: Cause | None) -> rrt.TableBlueprint:
         rrt.Column("worst", name="worst"),
         rrt.Column("wrong", name="wrong"),
     ]
+    against = [rrt.Column("difference", name=f"differs from {compared} (px)")] if compared else []
+    if compared and truth:
+        against.append(rrt.Column("other_a_err", name=f"A_err of {compared} (px)"))
     columns = [
         rrt.Column("photo", name="skyline", column_type=rrt.PreviewCell(thumbnail)),
+        *against,
         *(errors if truth else []),
         rrt.Column("margin", name="margin"),
         rrt.Column("reviewed", name="reviewed", column_type=rr.components.Flag, editable=True),
@@ -177,6 +193,8 @@ def _cards(truth: bool, cause: Cause | None) -> rrt.TableBlueprint:
     order = rrt.SortBy("a_err", direction="descending")
     if not truth:
         order = rrt.SortBy("margin", direction="ascending")
+    if compared:
+        order = rrt.SortBy("difference", direction="descending")
     return rrt.TableBlueprint(
         card_layout=rrt.CardLayout(title="name", link="photo", fields=columns),
         table_layout=rrt.TableLayout(columns=in_table),

@@ -50,8 +50,8 @@ def log_methods(
     height = len(detection.photo)
     ours = Verdict.of(detection.skyline, detection.margins(), height, truth)
     lines = [
-        "| line | method | A_err | worst | in column | ms |",
-        "| --- | --- | ---: | ---: | ---: | ---: |",
+        "| line | method | A_err | worst | ms |",
+        "| --- | --- | ---: | ---: | ---: |",
         _row("magenta", detection, ours),
     ]
     for (word, colour), other in zip(COLOURS.items(), others, strict=False):
@@ -63,15 +63,14 @@ def log_methods(
         log_line(recording, line, other.skyline, colour, _RADIUS)
         lines.append(_row(word, other, verdict))
     if truth:
-        lines.append("| turquoise | truth | | | | |")
+        lines.append("| turquoise | truth | | | |")
     text = "\n".join(lines)
     recording.log(entities.METHODS_TABLE, rr.TextDocument(text, media_type="text/markdown"))
 
 
 def _row(colour: str, detection: Detection, verdict: Verdict) -> str:
-    error, worst, column = "", "", ""
+    error, worst = "", ""
     if verdict.a_err is not None:
         error, worst = f"{verdict.a_err:.2f} px", f"{verdict.worst_error:.0f} px"
-        column = f"{verdict.worst_column}"
     took = f"{1000 * detection.total_seconds:.0f}"
-    return f"| {colour} | {detection.method} | {error} | {worst} | {column} | {took} |"
+    return f"| {colour} | {detection.method} | {error} | {worst} | {took} |"

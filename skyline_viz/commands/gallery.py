@@ -16,6 +16,7 @@ from skyline_viz.batch import Failure
 from skyline_viz.causes import Cause
 from skyline_viz.commands.inputs import Input, collect, output_folder
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, status_after
+from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import (
     BankFile,
     Folder,
@@ -27,9 +28,9 @@ from skyline_viz.commands.settings import (
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
-    from skyline_viz.detector import Detector
     from skyline_viz.gallery import Entry
     from skyline_viz.gallery_table import ServedGallery
+    from skyline_viz.methods.protocol import Method
 
 LOOK_EVERY = 0.5
 """Seconds between two looks at what was edited in the viewer."""
@@ -68,6 +69,9 @@ class GalleryCommand:
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos."""
 
+    methods: MethodOptions = field(default_factory=Methods)
+    """One method instead of ours, or two: those photos first on which they differ most."""
+
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
 
@@ -88,8 +92,8 @@ class GalleryCommand:
             raise UsageError("--screenshot and --serve exclude each other.")
         inputs = collect(self.photos)
         output_folder(self.out, (one.item for one in inputs))
-        detector = make_detector(self.bank, self.config)
-        entries, failures = build(self.out, inputs, detector, self.workers)
+        method, *beside = self._methods()
+        entries, failures = build(self.out, inputs, method, self.workers, *beside)
         if not entries:
             return status_after(failures) or SOME_FAILED
         if self.cause and not any(self.cause in (one.causes or ()) for one in entries):
@@ -102,9 +106,23 @@ class GalleryCommand:
             show(self.out, entries, window=not self.serve, cause=self.cause)
         return status_after(failures)
 
+    def _methods(self) -> list[Method]:
+        if not self.methods.given:
+            return [make_detector(self.bank, self.config)]
+        if self.bank:
+            raise UsageError("--bank is for the detector alone; name the file as a --method.")
+        methods = self.methods.chosen()
+        if len(methods) > 2:
+            raise UsageError(f"a gallery shows one method or two, and {len(methods)} are named.")
+        return methods
+
 
 def build(
-    out: Path, inputs: Sequence[Input], detector: Detector, workers: int
+    out: Path,
+    inputs: Sequence[Input],
+    method: Method,
+    workers: int,
+    beside: Method | None = None,
 ) -> tuple[list[Entry], list[Failure]]:
     """Bring a gallery up to date, and return its photos, the worst first, and those that failed."""
     from skyline_viz.gallery import Gallery, Shot, by_need  # noqa: PLC0415
@@ -112,7 +130,7 @@ def build(
     shots = [Shot(one.name, one.item) for one in inputs]
     entries: list[Entry] = []
     failures: list[Failure] = []
-    for outcome in Gallery(out).build(shots, detector, workers):
+    for outcome in Gallery(out).build(shots, method, beside, workers):
         if isinstance(outcome, Failure):
             failures.append(outcome)
         else:

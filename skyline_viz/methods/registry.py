@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import zipfile
@@ -130,6 +131,19 @@ def load_method(path: Path) -> Method:
     except (KeyError, TypeError) as error:
         raise MethodError(f"{path} is damaged: {error}.") from error
     return loaded
+
+
+def method_digest(method: Method) -> str:
+    """Digest of a method's settings and of what it has learned: another one finds other lines."""
+    digest = hashlib.sha256(type(method).__name__.encode())
+    for one in fields(method):  # type: ignore[arg-type]  # all methods are dataclasses
+        value = getattr(method, one.name)
+        if isinstance(value, Mapping):
+            for name, array in sorted(value.items()):
+                digest.update(name.encode() + array.tobytes())
+        else:
+            digest.update(value if isinstance(value, bytes) else f"{one.name} {value}".encode())
+    return digest.hexdigest()
 
 
 def model_bytes(method: Method) -> int:
