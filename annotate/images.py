@@ -95,15 +95,15 @@ def stage(detection: Detection, name: str) -> bytes:
         values: F32 = getattr(tensor_map(detection.photo), name)
         layer = _coloured(_scaled(values, 180.0 if name == "orientation" else None), name)
     else:
-        at_edges = detection.scores
-        if name == "bin":
-            if not isinstance(detection, FilterDetection):
-                raise KeyError(name)
+        at_edges, shown = detection.scores, detection.edges
+        if name == "bin" and isinstance(detection, FilterDetection):
             count = detection.bank.bins.orientations
             at_edges = (detection.bins % count / count).astype(np.float32)
+        elif name == "bin":
+            shown = np.zeros(shape, np.bool_)  # other methods have none
         values = np.zeros(shape, np.float32)
         values[detection.edge_rows, detection.edge_columns] = at_edges
-        layer = _coloured(values, name, detection.edges)
+        layer = _coloured(values, name, shown)
     if size != shape:
         layer = cv2.resize(_spread(layer, shape, size), size[::-1], interpolation=cv2.INTER_AREA)
     _, data = cv2.imencode(".png", cv2.cvtColor(layer, cv2.COLOR_RGBA2BGRA), _FAST)

@@ -1,4 +1,4 @@
-"""Detectors as the store keeps them, so that a label can be continued with what proposed it."""
+"""What proposed a label, as the store keeps it, so that the label can be continued with it."""
 
 from __future__ import annotations
 
@@ -12,11 +12,13 @@ from skyline_viz import __version__
 from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
 from skyline_viz.filter_bank import FilterBank
+from skyline_viz.methods.protocol import Method
+from skyline_viz.methods.registry import Trained, load_method, method_digest, save_method
 
 
 @dataclass(frozen=True)
 class KeptDetector:
-    """A detector as text and bytes."""
+    """A detector, or another method, as text and bytes."""
 
     digest: str
     """SHA-256 of settings and filter bank."""
@@ -25,14 +27,29 @@ class KeptDetector:
     """What it is, in words."""
 
     config: str
-    """Its settings, as JSON."""
+    """Its settings, as JSON; of another method its name, under ``method``."""
 
     bank: bytes
-    """Its filter bank, as `FilterBank.save` writes it."""
+    """Its filter bank, as `FilterBank.save` writes it, or the method, as `save_method` does."""
 
 
-def pack(detector: Detector) -> KeptDetector:
-    """Turn a detector into text and bytes."""
+def pack(method: Method) -> KeptDetector:
+    """Turn a detector or another method into text and bytes."""
+    return _pack_detector(method) if isinstance(method, Detector) else _pack_method(method)
+
+
+def _pack_method(method: Method) -> KeptDetector:
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "method.npz"
+        save_method(method, file, Trained())
+        kept = file.read_bytes()
+    config = json.dumps({"method": method.name})
+    digest = method_digest(method)
+    about = f"skyline-viz {__version__}, method {method.name}, {digest[:12]}"
+    return KeptDetector(digest, about, config, kept)
+
+
+def _pack_detector(detector: Detector) -> KeptDetector:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "bank.npz"
         detector.bank.save(file)
@@ -44,8 +61,8 @@ def pack(detector: Detector) -> KeptDetector:
     return KeptDetector(digest, about, config, bank)
 
 
-def unpack(config: str, bank: bytes) -> Detector:
-    """Make the detector again.
+def unpack(config: str, bank: bytes) -> Method:
+    """Make the detector or the method again.
 
     >>> same = unpack(*(lambda kept: (kept.config, kept.bank))(pack(Detector())))
     >>> same.config == DetectorConfig()
@@ -54,4 +71,7 @@ def unpack(config: str, bank: bytes) -> Detector:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "bank.npz"
         file.write_bytes(bank)
-        return Detector(FilterBank.load(file), DetectorConfig(**json.loads(config)))
+        settings = json.loads(config)
+        if "method" in settings:
+            return load_method(file)
+        return Detector(FilterBank.load(file), DetectorConfig(**settings))

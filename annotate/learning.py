@@ -72,7 +72,13 @@ class Learner:
             found = len(labels)
             detail = f"learning needs {LEAST} accepted photos, and there are {found}."
             return Learning(state="failed", detail=detail, changed=0)
-        config = TrainingConfig(detector=bench.detector.config)
+        proposes = bench.detector
+        if not isinstance(proposes, Detector):
+            detail = (
+                f"the method {proposes.name} proposes here, and only our own learns on the way."
+            )
+            return Learning(state="failed", detail=detail, changed=0)
+        config = TrainingConfig(detector=proposes.config)
         photos = {photo.digest: photo for photo in bench.photos.values()}
         halves = [GramMatrices.empty(config), GramMatrices.empty(config)]
         for number, label in enumerate(labels):
@@ -80,7 +86,7 @@ class Learner:
             assert label.skyline is not None
             halves[number % 2] += gather(pixels, label.skyline, _SEED, config)
         name = bench.store.folder.resolve().name
-        before = self._error(labels, [bench.detector] * 2)
+        before = self._error(labels, [proposes] * 2)
         learned = [Detector(solve(one, _SEED, config, name), config.detector) for one in halves]
         after = self._error(labels, learned[::-1])  # each on the photos of the other
         says = f"A_err {after:.2f} px on accepted photos it has not seen, now {before:.2f} px"

@@ -28,7 +28,7 @@ from annotate.labels import ORIGINS
 from annotate.plan import Plan, Run, Stale, make_plan
 from skyline_viz.arrays import F32, F64, U8, Int, check_photo
 from skyline_viz.constraints import Anchor, PathError, StraightSpan
-from skyline_viz.detector import Detector
+from skyline_viz.methods.protocol import Method
 from skyline_viz.path import cheapest_end, sweep, trace
 from skyline_viz.skyline import Skyline
 from skyline_viz.uncertainty import APART, column_margin
@@ -59,7 +59,7 @@ class LiveWire:
     20.0
     """
 
-    def __init__(self, photo: U8, detector: Detector | None) -> None:
+    def __init__(self, photo: U8, detector: Method | None) -> None:
         """Find the proposal.
 
         Args:
@@ -78,8 +78,8 @@ class LiveWire:
             detection = detector.detect(photo)
             cost, forward = detection.cost, np.array(detection.forward.T)
             self.proposal = detection.skyline
-            self._delta = min(detector.config.delta, self.height - 1)
-            self._link_weight = float(detector.config.link_weight)
+            self._delta = min(detection.delta, self.height - 1)
+            self._link_weight = float(detection.link_weight)
         self._cost: F32 = np.ascontiguousarray(cost.T)
         self._allowed = self._cost  # a copy with infinite costs where the brush forbids
         self._reach = np.full(max(len(self._cost) - 1, 0), self._delta, np.int32)

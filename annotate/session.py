@@ -14,7 +14,7 @@ from annotate.operations import Edit, Open, Operation, SetStatus, SetTag
 from annotate.store import Photo, StaleError, Store
 from skyline_viz.arrays import U8
 from skyline_viz.constraints import PathError
-from skyline_viz.detector import Detector
+from skyline_viz.methods.protocol import Method
 from skyline_viz.photo import PhotoError, read_photo
 from skyline_viz.verdict import Verdict
 
@@ -23,7 +23,7 @@ class Session:
     """A photo, open for labelling. Its methods may be called from several threads."""
 
     def __init__(
-        self, store: Store, photo: Photo, label: int, detector: Detector, *, blind: bool
+        self, store: Store, photo: Photo, label: int, detector: Method, *, blind: bool
     ) -> None:
         """Read the photo, and find its proposal or what has been made of it.
 

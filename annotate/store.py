@@ -28,7 +28,7 @@ from annotate.labels import Label
 from annotate.lines import Line
 from annotate.log import cursor, summary
 from annotate.operations import Edit
-from skyline_viz.detector import Detector
+from skyline_viz.methods.protocol import Method
 from skyline_viz.photo import PhotoError, photo_size
 
 
@@ -178,7 +178,7 @@ class Store:
             row = database.execute("SELECT blind FROM labels WHERE id = ?", (label,)).fetchone()
             return bool(row[0])
 
-    def propose(self, label: int, line: Line, detector: Detector | None, margin: float) -> None:
+    def propose(self, label: int, line: Line, detector: Method | None, margin: float) -> None:
         """Keep the proposal of a label, and what made it.
 
         Raises:
@@ -193,7 +193,7 @@ class Store:
                 (line.packed(), made_by, margin, label),
             )
 
-    def detector(self, label: int) -> Detector | None:
+    def detector(self, label: int) -> Method | None:
         """The detector that made the proposal of a label; None where there is no proposal."""
         with self._reading() as database:
             row = database.execute(
@@ -384,7 +384,7 @@ def _revision(database: sqlite3.Connection, label: int) -> int:
     return int(row[0] or 0)
 
 
-def _keep_detector(database: sqlite3.Connection, detector: Detector) -> int:
+def _keep_detector(database: sqlite3.Connection, detector: Method) -> int:
     """Id of a detector, which is added where it is new."""
     kept = pack(detector)
     database.execute(

@@ -16,7 +16,7 @@ from annotate.labels import Label
 from annotate.session import Session, read_whole
 from annotate.store import Card, Photo, Store
 from skyline_viz.detection import Detection
-from skyline_viz.detector import Detector
+from skyline_viz.methods.protocol import Method
 
 Order = Literal["name", "margin", "random"]
 """In which order photos are labelled: by name, the least certain first, or shuffled."""
@@ -71,7 +71,7 @@ class Workbench:
     def __init__(
         self,
         store: Store,
-        detector: Detector,
+        detector: Method,
         assignment: Assignment,
         doubts: dict[str, int] | None = None,
     ) -> None:
@@ -189,7 +189,7 @@ class Workbench:
         with self._lock:
             self._open.pop(photo, None)
 
-    def propose_again(self, detector: Detector) -> int:
+    def propose_again(self, detector: Method) -> int:
         """Let another detector propose for the photos nobody has worked on; return how many."""
         self.detector = detector
         waiting = [card for card in self.cards() if card.status == "to do" and not card.blind]

@@ -14,11 +14,13 @@ import tyro
 
 from annotate.commands.options import PROGRAM, Annotator, PhotoFolder, check_folder, whoever
 from skyline_viz.commands.messages import GOOD, UsageError, counted, say
+from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detector
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
     from annotate.workbench import Workbench
+    from skyline_viz.methods.protocol import Method
 
 _LOCK = ".skyline-labels.lock"
 
@@ -47,6 +49,9 @@ class Open:
 
     from_diagnosis: Annotated[Path | None, tyro.conf.arg(metavar="FILE")] = None
     """diagnosis.json of skyline-viz diagnose: only photos whose truth is doubtful, where it is."""
+
+    methods: MethodOptions = field(default_factory=Methods)
+    """Another method to propose with than ours."""
 
     bank: BankFile = None
     """Filter bank to propose with; the shipped one unless given."""
@@ -106,7 +111,11 @@ class Open:
             whoever(self.annotator), self.pass_number, self.order, self.blind, self.seed
         )
         doubts = read_doubts(self.from_diagnosis) if self.from_diagnosis else None
-        detector = make_detector(self.bank, self.config)
+        detector: Method
+        if self.methods.given:
+            detector = self.methods.one(["--bank"] if self.bank else [])
+        else:
+            detector = make_detector(self.bank, self.config)
         bench = Workbench(Store(self.folder), detector, who, doubts)
         if doubts is not None and not bench.photos:
             raise UsageError(f"{self.from_diagnosis} doubts no truth of a photo in {self.folder}.")

@@ -84,11 +84,11 @@ def find_method(text: str) -> Method:
     return load_method(path)
 
 
-def save_method(method: LearnedMethod, path: str | os.PathLike[str], trained: Trained) -> None:
-    """Write a trained method as one ``.npz`` file, whole or not at all."""
+def save_method(method: Method, path: str | os.PathLike[str], trained: Trained) -> None:
+    """Write a method, with what it has learned, as one ``.npz`` file, whole or not at all."""
     settings = {
         one.name: getattr(method, one.name)
-        for one in fields(method)
+        for one in fields(method)  # type: ignore[arg-type]  # all methods are dataclasses
         if one.name not in ("name", "model")
     }
     header = {
@@ -100,7 +100,7 @@ def save_method(method: LearnedMethod, path: str | os.PathLike[str], trained: Tr
     }
     arrays: dict[str, Any] = {
         "header": np.frombuffer(json.dumps(header).encode(), np.uint8),
-        **method.model,
+        **getattr(method, "model", {}),
     }
     with replacing(path) as temporary, temporary.open("wb") as file:
         np.savez_compressed(file, **arrays)
@@ -127,7 +127,8 @@ def load_method(path: Path) -> Method:
         raise MethodError(f"{path} is of version {header.get('version')}, not {VERSION}.")
     try:
         made: Any = make_method(str(header["name"]))
-        loaded: Method = type(made)(name=header["name"], model=arrays, **header["settings"])
+        model = {"model": arrays} if isinstance(made, LearnedMethod) else {}
+        loaded: Method = type(made)(name=header["name"], **model, **header["settings"])
     except (KeyError, TypeError) as error:
         raise MethodError(f"{path} is damaged: {error}.") from error
     return loaded
