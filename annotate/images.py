@@ -90,7 +90,10 @@ def stage(detection: Detection, name: str) -> bytes:
         layer = np.full((*shape, 4), 255, np.uint8)
         layer[..., 3] = detection.edges * np.uint8(255)
     elif name == "cost":
-        layer = _coloured(_scaled(detection.cost), name)
+        cost = detection.shown_cost
+        ruled_out = np.isnan(cost)
+        dearest = cost[~ruled_out].max(initial=0.0)
+        layer = _coloured(_scaled(np.where(ruled_out, dearest, cost)), name)
     elif name in ("strength", "coherence", "orientation"):
         values: F32 = getattr(tensor_map(detection.photo), name)
         layer = _coloured(_scaled(values, 180.0 if name == "orientation" else None), name)

@@ -15,6 +15,7 @@ from skyline_viz.commands.inspect import Inspect
 from skyline_viz.commands.program import Command, parsed, run_program
 from skyline_viz.commands.render import Render
 from skyline_viz.commands.settings import Preset, asked_preset, config_of
+from skyline_viz.commands.tables import Tables
 from skyline_viz.commands.train import Train
 from skyline_viz.config import TrainingConfig
 
@@ -53,6 +54,7 @@ def _commands(preset: Preset) -> Any:  # noqa: ANN401  # a union that is made at
         "gallery": GalleryCommand(config=config),
         "train": Train(missing, missing, training=TrainingConfig(detector=config)),
         "evaluate": Evaluate(missing, config=config),
+        "tables": Tables(missing),
         "diagnose": Diagnose(missing, config=config),
         "render": Render(),
         "demo": Demo(),

@@ -100,6 +100,13 @@ class Detection:
         costs: F64 = self.cost[rows, columns].astype(np.float64)
         return costs
 
+    @property
+    def shown_cost(self) -> F32:
+        """``(H, W)`` nodal costs to look at: NaN where the method rules pixels out."""
+        ruled_out = self.cost >= self.non_edge_cost
+        shown: F32 = np.where(ruled_out, np.float32(np.nan), self.cost)
+        return shown
+
     def uncertainty(self) -> Uncertainty:
         """How sure the path is: margins and detours. Takes one more path search."""
         return uncertainty(self.cost, self.forward, self.delta, self.link_weight)

@@ -64,6 +64,11 @@ class FilterDetection(Detection):
         strength = normalised(self.strength, self.config.strength_percentile)
         return (1 - self.config.v) * (1 - strength.astype(np.float64))
 
+    @property
+    def shown_cost(self) -> F32:
+        """``(H, W)`` nodal costs; no pixel is ruled out."""
+        return self.cost
+
     def no_edge_costs(self, rows: Int, columns: npt.NDArray[np.integer]) -> F64:
         """What pixels ``(k,)`` pay for having no edge; terrain and clear sky are not in it."""
         del columns

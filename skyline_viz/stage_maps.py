@@ -73,7 +73,7 @@ def log_maps(
         }
     dense: dict[str, F32] = {}
     if shown is None:
-        dense = {entities.COST: _finite_cost(detection)}
+        dense = {entities.COST: detection.shown_cost}
         if isinstance(detection, FilterDetection):
             tensor = tensor_map(detection.photo)
             dense |= {
@@ -104,14 +104,6 @@ def log_maps(
         quantity = Quantity(stage)
         dense_map(quantity, further, levels).log(recording, at(f"{entities.MAPS}/{stage}"))
     return len(rows)
-
-
-def _finite_cost(detection: Detection) -> F32:
-    """Nodal costs to show: where a method rules pixels out, these have none."""
-    if isinstance(detection, FilterDetection):
-        return detection.cost
-    ruled_out = detection.cost >= detection.non_edge_cost
-    return np.where(ruled_out, np.float32(np.nan), detection.cost)
 
 
 def log_detour(

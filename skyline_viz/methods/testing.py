@@ -20,6 +20,9 @@ class Compared:
     results: dict[str, list[PhotoResult]]
     """For each method the results by name of the photo."""
 
+    fitted: dict[str, Method]
+    """The methods as the first part of the photos was tested with them."""
+
     failures: list[Failure]
     """Photos that could not be read, methods that could not learn, photos that one failed on."""
 
@@ -75,7 +78,12 @@ def compare_methods(
             else:
                 found.append(outcome)
         results[method.name] = found
-    return Compared(results, failures)
+    ready = {
+        method.name: one[0]
+        for method, one in zip(methods, fitted, strict=True)
+        if one and one[0] is not None
+    }
+    return Compared(results, ready, failures)
 
 
 def fold_method(

@@ -1,0 +1,134 @@
+"""``skyline-viz tables``: the paper's tables, measured, on one page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, get_args
+
+import tyro
+
+from skyline_viz.commands.inputs import output_folder, with_truth
+from skyline_viz.commands.messages import SOME_FAILED, UsageError, say, status_after
+from skyline_viz.commands.methods import MethodOptions, Methods
+from skyline_viz.commands.settings import Folder, Switch
+from skyline_viz.methods.names import MethodName
+
+if TYPE_CHECKING:
+    from skyline_viz.datasets import DatasetItem
+    from skyline_viz.methods.protocol import Method
+    from skyline_viz.methods.testing import Compared
+    from skyline_viz.tables import Table
+
+
+@dataclass(frozen=True)
+class Tables:
+    """Measure the paper's Tables I to VI on data sets, with the published rows beside them."""
+
+    datasets: Annotated[
+        tuple[Path, ...],
+        tyro.conf.Positional,
+        tyro.conf.arg(metavar="DATASET [DATASET ...]", help_behavior_hint="(required)"),
+    ]
+    """Folders of data sets with truths, in a published layout or plain."""
+
+    out: Folder = Path("skyline-tables")
+    """Folder for tables.md, tables.tex, methods.csv and histograms; made where it is missing."""
+
+    methods: MethodOptions = field(default_factory=Methods)
+    """The methods; all that are known unless given."""
+
+    folds: int = 2
+    """Folds of the cross-validation, which trains on all folds but the one it tests."""
+
+    no_studies: Switch = False
+    """Leave out Tables III and IV: filter size and training set."""
+
+    seed: int = 0
+    """Seed of all that is drawn."""
+
+    workers: int = 0
+    """Processes to work in; 0 chooses by the number of photos."""
+
+    def run(self) -> int:
+        """Measure and write; return the exit status."""
+        from skyline_viz.datasets import open_dataset  # noqa: PLC0415
+        from skyline_viz.methods.registry import make_method  # noqa: PLC0415
+
+        if not self.datasets:
+            raise UsageError("which data sets? Name at least one folder.")
+        if self.folds < 2:
+            raise UsageError(f"a cross-validation has 2 folds or more, not {self.folds}.")
+        if self.seed < 0:
+            raise UsageError(f"a seed is 0 or more, not {self.seed}.")
+        methods = self.methods.chosen() or [make_method(name) for name in get_args(MethodName)]
+        sets = {}
+        for folder in self.datasets:
+            dataset = open_dataset(folder)
+            if dataset.name in sets:
+                raise UsageError(f"two data sets are called {dataset.name}; rename a folder.")
+            output_folder(self.out, dataset)
+            sets[dataset.name] = with_truth(dataset)
+        measured = self._measure(sets, methods)
+        failures = [failure for one in measured.values() for failure in one.failures]
+        if not any(one.results for one in measured.values()):
+            return status_after(failures) or SOME_FAILED
+        self._write(self._tables(sets, measured), measured)
+        return status_after(failures)
+
+    def _measure(
+        self, sets: Mapping[str, Sequence[DatasetItem]], methods: Sequence[Method]
+    ) -> dict[str, Compared]:
+        from skyline_viz.methods.testing import compare_methods  # noqa: PLC0415
+
+        return {
+            name: compare_methods(
+                items, methods, folds=self.folds, seed=self.seed, workers=self.workers
+            )
+            for name, items in sets.items()
+        }
+
+    def _tables(
+        self, sets: Mapping[str, Sequence[DatasetItem]], measured: dict[str, Compared]
+    ) -> list[Table]:
+        from skyline_viz import tables  # noqa: PLC0415
+        from skyline_viz.methods.timing import time_methods  # noqa: PLC0415
+
+        studies = []
+        if not self.no_studies:
+            say("filter sizes and training sets ...")
+            studies = [
+                tables.table_3(sets, self.folds, self.seed, self.workers),
+                tables.table_4(sets, self.seed, self.workers),
+            ]
+        first, compared = next(iter(measured.items()))
+        say("times ...")
+        timings = time_methods(compared.fitted, sets[first][0].photo())
+        return [
+            tables.table_1(measured, self.folds),
+            tables.table_2(measured),
+            *studies,
+            tables.table_5(measured, self.folds),
+            tables.table_6(timings, compared.fitted),
+        ]
+
+    def _write(self, tables: list[Table], measured: dict[str, Compared]) -> None:
+        from skyline_viz.evaluation_report import write_comparison, write_histogram  # noqa: PLC0415
+        from skyline_viz.files import write_text  # noqa: PLC0415
+        from skyline_viz.tables_report import latex, markdown  # noqa: PLC0415
+
+        page = markdown(tables)
+        write_text(self.out / "tables.md", page)
+        write_text(self.out / "tables.tex", latex(tables))
+        for name, compared in measured.items():
+            folder = self.out / name if len(measured) > 1 else self.out
+            folder.mkdir(exist_ok=True)
+            about = {"dataset": name, "folds": self.folds, "seed": self.seed}
+            write_comparison(folder, compared.results, about)
+            for method in ("default", "paper"):
+                if results := compared.results.get(method):
+                    title = f"{name}: {len(results)} photos, {method}"
+                    write_histogram(folder / f"histogram-{method}.png", results, title)
+        print(page)
+        print(f"tables.md, tables.tex, methods.csv and histograms in {self.out}")
