@@ -1,0 +1,194 @@
+"""Methods by name, as files, compared, and in tables."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+import skyline_viz as sv
+from skyline_viz import published, tables
+from skyline_viz.batch import Failure
+from skyline_viz.cli import main
+from skyline_viz.detector import Detector
+from skyline_viz.evaluation import cross_validate
+from skyline_viz.methods.edges_only import EdgesOnly
+from skyline_viz.methods.protocol import Learner, MethodError
+from skyline_viz.methods.registry import (
+    NAMES,
+    Trained,
+    find_method,
+    load_method,
+    make_method,
+    method_digest,
+    model_bytes,
+    save_method,
+)
+from skyline_viz.methods.testing import compare_methods
+from skyline_viz.methods.timing import time_methods
+from skyline_viz.rendering import render
+from skyline_viz.tables_report import latex, markdown
+
+SIZE = (160, 120)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A plain data set of four small scenes."""
+    folder = tmp_path_factory.mktemp("set") / "hills"
+    for part in ("images", "masks"):
+        (folder / part).mkdir(parents=True)
+    for number in range(4):
+        scene = render("desert", 50 + number, *SIZE)
+        sv.write_photo(folder / "images" / f"hill-{number}.png", scene.photo)
+        terrain = ~scene.truth.to_mask(SIZE[1])
+        mask = terrain.astype(np.uint8) * np.uint8(255)
+        sv.write_photo(folder / "masks" / f"hill-{number}.png", mask)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def items(folder):
+    return list(sv.open_dataset(folder))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_name_makes_a_method_of_that_name(name):
+    method = make_method(name)
+    assert method.name == name
+    assert isinstance(method, Learner) == (name not in ("edges", "gradient"))
+    assert name in published.TITLES
+
+
+def test_a_method_that_has_learned_nothing_says_how_to_train_it():
+    with pytest.raises(MethodError, match="train it with: skyline-viz train DATASET --method svm-"):
+        make_method("svm-dcsi").detect(render("clear", 1, *SIZE).photo)
+
+
+def test_names_and_files_that_are_no_method_are_refused(tmp_path):
+    with pytest.raises(MethodError, match="nobody is neither a method nor the file"):
+        find_method("nobody")
+    with pytest.raises(MethodError, match=r"gone\.npz does not exist"):
+        find_method(str(tmp_path / "gone.npz"))
+    (tmp_path / "text.npz").write_text("no archive")
+    with pytest.raises(MethodError, match=r"text\.npz is damaged or no trained method"):
+        find_method(str(tmp_path / "text.npz"))
+    np.savez(tmp_path / "other.npz", header=np.frombuffer(b'{"format": "x"}', np.uint8))
+    with pytest.raises(MethodError, match="neither a trained method nor a filter bank"):
+        find_method(str(tmp_path / "other.npz"))
+
+
+def test_a_filter_bank_is_a_method(tmp_path):
+    sv.FilterBank.default().save(tmp_path / "bank.npz")
+    method = find_method(str(tmp_path / "bank.npz"))
+    assert isinstance(method, Detector)
+    assert model_bytes(method) == method.bank.filters.nbytes
+
+
+def test_a_method_comes_back_from_its_file(tmp_path):
+    method = EdgesOnly(delta=12.0)
+    save_method(method, tmp_path / "m.npz", Trained("hills", 4, 0))
+    again = load_method(tmp_path / "m.npz")
+    assert again == method
+    assert method_digest(again) == method_digest(method)
+    assert method_digest(EdgesOnly()) != method_digest(method)
+
+
+def test_folds_test_each_photo_with_what_was_learned_from_others(items):
+    seen = []
+
+    class Spy(Detector):
+        def fit(self, items, seed=0):
+            seen.append([item.name for item in items])
+            return self
+
+    found = compare_methods(items, [Spy(), EdgesOnly()], folds=2)
+    assert seen == [["hill-1", "hill-3"], ["hill-0", "hill-2"]]
+    names = [one.name for one in found.results["edges"]]
+    assert names == ["hill-0", "hill-1", "hill-2", "hill-3"]
+    assert not found.failures
+    assert set(found.fitted) == {"default", "edges"}
+    with pytest.raises(ValueError, match="from 2 to the 4 photos, not 9"):
+        compare_methods(items, [EdgesOnly()], folds=9)
+
+
+def test_cross_validation_agrees_with_that_of_our_detector(items):
+    ours, _ = cross_validate(items, 2)
+    found = compare_methods(items, [Detector()], folds=2)
+    assert [one.a_err for one in found.results["default"]] == [one.a_err for one in ours]
+
+
+def test_a_method_that_cannot_learn_is_one_failure_and_others_go_on(items):
+    class Poor(Detector):
+        def fit(self, items, seed=0):
+            raise ValueError("it rains.")
+
+    poor = Poor(config=sv.DetectorConfig.paper())
+    found = compare_methods(items, [poor, EdgesOnly()], folds=2)
+    assert found.results["paper"] == []
+    assert len(found.results["edges"]) == 4
+    assert found.failures == [Failure("paper", "it rains.")] * 2
+
+
+def test_times_are_told_for_every_method(items):
+    timings = time_methods({"edges": EdgesOnly()}, items[0].photo())
+    assert [one.name for one in timings] == ["edges"]
+    assert timings[0].seconds > 0
+
+
+def test_tables_put_measured_and_published_rows_side_by_side(items):
+    measured = {"hills": compare_methods(items, [Detector(), EdgesOnly()], folds=2)}
+    first = tables.table_1(measured, 2)
+    assert first.rows[0][:3] == ("Ours, default", "hills", "the other folds of 2")
+    assert first.rows[1][:3] == ("Edges only", "hills", "nothing")
+    assert ("Edges only", "Web (80), published", "nothing", 9.15, 17.92, 0.38, 93.02) in [
+        row[:7] for row in first.rows
+    ]
+    sixth = tables.table_6(
+        time_methods(measured["hills"].fitted, items[0].photo()), measured["hills"].fitted
+    )
+    assert sixth.rows[0][3] == "1.0"
+    page, paper = markdown([first, sixth]), latex([first, sixth])
+    assert "## Table VI: Size of the model" in page
+    for table in (first, sixth):
+        lines = [line for line in page.splitlines() if line.startswith("| ")]
+        assert all(line.count("|") == page.splitlines()[2].count("|") for line in lines[:3])
+        assert paper.count(r"\end{tabular}") == 2
+        assert len(table.headings) == len(table.rows[0])
+    for line in paper.splitlines():
+        if line.endswith(r"\\"):
+            assert not re.search(r"(?<!\\)[_%#]", line), line
+
+
+def test_commands_compare_train_and_detect(folder, tmp_path, capsys):
+    out = str(tmp_path / "out")
+    words = ["evaluate", str(folder), "--folds", "2", "--method", "default", "edges", "--out", out]
+    assert main(words) == 0
+    said = capsys.readouterr().out
+    assert "hills: 4 photos, 2-fold cross-validation" in said
+    assert re.search(r"^edges +\d", said, re.MULTILINE)
+    document = json.loads((tmp_path / "out" / "methods.json").read_text())
+    assert set(document["methods"]) == {"default", "edges"}
+    lines = (tmp_path / "out" / "methods.csv").read_text().splitlines()
+    assert len(lines) == 9
+    photo = str(folder / "images" / "hill-0.png")
+    assert main(["detect", photo, "--method", "edges", "--out", str(tmp_path)]) == 0
+    found = sv.Skyline.read_csv(tmp_path / "hill-0.csv")
+    wanted = EdgesOnly().detect(sv.read_photo(photo)).skyline
+    np.testing.assert_array_equal(found.rows, wanted.rows)
+    assert main(["diagnose", str(folder), "--method", "edges"]) == 0
+    assert main(["detect", photo, "--method", "edges", "gradient"]) == 2
+    assert "one method can be used here, and 2 are named" in capsys.readouterr().err
+    assert main(["evaluate", str(folder), "--method", "edges", "edges"]) == 2
+    assert main(["train", str(folder), "--method", "edges", "--out", f"{out}/m.npz"]) == 2
+    assert "the method edges has nothing to learn" in capsys.readouterr().err
+
+
+def test_the_command_writes_tables(folder, tmp_path, capsys):
+    words = ["tables", str(folder), "--out", str(tmp_path), "--method", "paper", "edges"]
+    assert main([*words, "--no-studies"]) == 0
+    assert "## Table I: A_err of earlier methods" in capsys.readouterr().out
+    assert (tmp_path / "tables.md").read_text().count("## Table") == 4
+    assert r"\begin{tabular}" in (tmp_path / "tables.tex").read_text()
+    assert (tmp_path / "histogram-paper.png").exists()
+    assert main(["tables", str(folder), "--folds", "1", "--out", str(tmp_path)]) == 2
