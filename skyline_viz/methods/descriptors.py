@@ -178,7 +178,8 @@ def _normalise(values: F32, least: float) -> None:
 
 
 @numba.njit(cache=True, nogil=True, fastmath=True)
-def _dot(some: F32, others: F32) -> F32:
+def _dot(some: F32, others: F32) -> np.float32:
+    # fastmath lets the sum be taken in any order, and so by vector instructions
     total = np.float32(0)
     for index in range(len(some)):
         total += some[index] * others[index]
