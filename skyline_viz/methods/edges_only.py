@@ -3,6 +3,24 @@
 Every edge pixel costs the same, and links cost the change of row. An edge pixel that no edge pixel
 of the next column is in reach of looks for one in the columns behind, up to the tolerance of gap,
 and dummy nodes on the straight line to it cost more than an edge, but less than anything else.
+
+Edges alone do not tell a skyline from a ridge in the foreground. Lie et al. assume that it is the
+topmost line from rim to rim: in the first and in the last column an edge costs the more the lower
+it is, by its squared row. The published figures rest on that, and on photos without a frame.
+Measured on 40 of the Web photographs, mean, standard deviation, median and photos under 4 pixels:
+
+==========================================  ======  ======  ======  ======
+Canny 50 and 220, ``delta`` = ``tog`` = 30    mean     std  median   < 4
+==========================================  ======  ======  ======  ======
+with frames, no cost of rows                  34.4    62.1    0.67   24/40
+without frames (4 photos have one)            24.4    42.8    0.62   25/40
+and with the cost of rows (the default)        8.3    16.3    0.47   29/40
+published, all 80 photographs                  9.2    17.9       -       -
+==========================================  ======  ======  ======  ======
+
+Edges of the smoothed photo with thresholds from its own gradients, as the Canny detector of MATLAB
+chooses them, fit the skyline better (median 0.3) and are so many that more photos go wrong. What
+is left are clouds above the skyline and, where its edges have gaps, ridges right below it.
 """
 
 from __future__ import annotations
@@ -15,9 +33,7 @@ import numpy as np
 from skyline_viz.arrays import F32, U8, Bool, check_photo
 from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import find_edges
-
-PUBLISHED_SIZE = (240, 352)
-"""Rows and columns of the photos for which the published settings are meant."""
+from skyline_viz.methods.frames import without_frame
 
 RULED_OUT = 1e4
 """Cost of pixels that are no node; the paper's infinite one, but of any two lines the one that
@@ -26,7 +42,7 @@ crosses fewer of them is still the cheaper one."""
 
 @dataclass(frozen=True)
 class EdgesOnly:
-    """The settings are published for 352x240 pixels, and scaled to the size of each photo."""
+    """The settings are in pixels of the photo, whatever its size."""
 
     name: str = "edges"
     """Its name."""
@@ -37,11 +53,11 @@ class EdgesOnly:
     high_threshold: float = 220.0
     """Upper Canny threshold, on the grey photo."""
 
-    delta: float = 30.0
-    """Largest change of row a column, in rows of a photo of 240 rows."""
+    delta: int = 30
+    """Largest change of row between neighbouring columns, and across a gap."""
 
-    tog: float = 30.0
-    """Longest gap that is filled, in columns of a photo of 352 columns."""
+    tog: int = 30
+    """Longest gap that is filled, in columns."""
 
     edge_cost: float = 1.0
     """Nodal cost ``l`` of an edge pixel."""
@@ -49,24 +65,26 @@ class EdgesOnly:
     gap_cost: float = 100.0
     """Nodal cost of a dummy node."""
 
+    row_cost: float = 1.0
+    """What an edge in the first and in the last column costs more, times its squared row."""
+
     def detect(self, photo: U8) -> Detection:
         """Find the skyline of a photo ``(H, W, 3)`` uint8 RGB."""
         check_photo(photo)
         seconds: dict[str, float] = {}
-        down, across = (
-            side / published
-            for side, published in zip(photo.shape[:2], PUBLISHED_SIZE, strict=True)
-        )
-        delta = max(round(self.delta * down), 1)
         with timed(seconds, "edges"):
-            edges, _ = find_edges(photo, "grey", self.low_threshold, self.high_threshold)
+            inside = without_frame(photo, self.low_threshold, self.high_threshold)
+            edges, _ = find_edges(inside, "grey", self.low_threshold, self.high_threshold)
         with timed(seconds, "cost"):
-            tog = max(round(self.tog * across), 1)
-            dummies = fill_gaps(np.ascontiguousarray(edges.T), delta, tog).T
-            # a photo of twice the columns has twice the nodes on every line
-            cost = np.full(edges.shape, RULED_OUT, np.float32)
-            cost[dummies] = self.gap_cost / across
-            cost[edges] = self.edge_cost / across
+            below = self.row_cost * np.arange(1, len(edges) + 1, dtype=np.float32) ** 2
+            # not to begin on an edge has to cost more than to begin on the lowest one
+            ruled_out = max(RULED_OUT, 4 * float(below[-1]))
+            dummies = fill_gaps(np.ascontiguousarray(edges.T), self.delta, self.tog).T
+            cost = np.full(edges.shape, ruled_out, np.float32)
+            cost[dummies] = self.gap_cost
+            cost[edges] = self.edge_cost
+            cost[:, 0] += below
+            cost[:, -1] += below
         return solve_detection(
             self.name,
             photo,
@@ -74,9 +92,9 @@ class EdgesOnly:
             np.ones(int(edges.sum()), np.float32),
             cost,
             seconds,
-            delta=delta,
-            link_weight=1 / down,
-            non_edge_cost=RULED_OUT,
+            delta=self.delta,
+            link_weight=1.0,
+            non_edge_cost=ruled_out,
             score_weight=0.0,
         )
 
