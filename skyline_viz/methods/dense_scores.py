@@ -23,6 +23,7 @@ from skyline_viz.methods.score_images import (
     LEAST_DEVIATION,
     DenseScores,
     draw_samples,
+    logistic,
     normalised_parts,
     patches,
 )
@@ -107,9 +108,3 @@ def normalised(seen: F32) -> F32:
     variance = np.square(centred).mean(axis=(1, 2), keepdims=True)
     form: F32 = centred / np.sqrt(variance + np.float32(LEAST_DEVIATION**2))
     return form
-
-
-def logistic(values: F32) -> F32:
-    """``1 / (1 + exp(-values))``, without overflow."""
-    chance: F32 = 0.5 + 0.5 * np.tanh(0.5 * values)
-    return chance

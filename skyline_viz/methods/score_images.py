@@ -32,7 +32,6 @@ import numpy.typing as npt
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
 from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import edge_pixels, find_edges
-from skyline_viz.methods.edges_only import RULED_OUT, ruled_out_but
 from skyline_viz.methods.gradient import gradient_cost
 from skyline_viz.methods.protocol import LearnedMethod, near_truth
 from skyline_viz.methods.stable_edges import stable_edges
@@ -78,10 +77,13 @@ class DenseScores(LearnedMethod):
     link_weight: float = 0.02
     """Link cost of one pixel of row change."""
 
-    best: int = 20
+    best: int = 50
     """``m``: how many pixels of a column ``mdcsi`` keeps."""
 
-    w2: float = 0.5
+    ruled_out: float = 3.0
+    """Nodal cost of the others, for which the paper has an infinite one."""
+
+    w2: float = 0.9
     """Weight of the score against ``G_r``, in [0, 1]."""
 
     w3: float = 0.7
@@ -150,7 +152,8 @@ class DenseScores(LearnedMethod):
         low = 1 - dense
         match self.fusion:
             case "best":
-                return ruled_out_but(dense.shape, edges, low[edges]), 1.0, RULED_OUT
+                cost = np.where(edges, low, np.float32(self.ruled_out))
+                return cost, 1.0, self.ruled_out
             case "gradient":
                 cost = self.w2 * low + (1 - self.w2) * gradient_cost(photo)
                 return cost.astype(np.float32), self.w2, 1.0
@@ -234,3 +237,9 @@ def draw_samples(photo: U8, truth: Skyline, seed: int) -> tuple[Int, Int, Bool]:
         columns.append(some_columns)
     every = np.concatenate(rows)
     return every, np.concatenate(columns), np.arange(len(every)) < len(on_line)
+
+
+def logistic(values: F32) -> F32:
+    """``1 / (1 + exp(-values))``, without overflow."""
+    chance: F32 = 0.5 + 0.5 * np.tanh(0.5 * values)
+    return chance
