@@ -53,6 +53,11 @@ if [ "$kind" = dev ]; then
     say "installing the locked development set"
     "${pip[@]}" install -r requirements-dev.txt
     "${pip[@]}" install --no-deps --no-build-isolation -e .
+    # The extra deep. Torch is not in the locked set: that is for all systems, and torch would bring
+    # gigabytes of CUDA packages into it, on machines that find a build for the CPU alone, too.
+    "${pip[@]}" install 'torch==2.13.0' || {
+        say "torch 2.13.0 could not be installed; tests of the extra deep will be reported as not run."
+    }
 else
     say "installing skyline-viz and what it needs"
     "${pip[@]}" install -e .
