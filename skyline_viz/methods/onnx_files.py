@@ -114,8 +114,8 @@ class Network:
 
 def normalised(photo: U8, mean: tuple[float, ...], std: tuple[float, ...]) -> F32:
     """Input ``(1, 3, H, W)`` of a photo ``(H, W, 3)`` uint8: in [0, 1], less mean, over std."""
-    values = (photo.astype(np.float32) / 255 - np.float32(mean)) / np.float32(std)
-    return np.ascontiguousarray(values.transpose(2, 0, 1)[None])
+    values = (photo / np.float32(255) - np.array(mean)) / np.array(std)
+    return np.ascontiguousarray(values.transpose(2, 0, 1)[None], np.float32)
 
 
 def padded(photo: U8, multiple: int = 32) -> U8:
@@ -166,12 +166,12 @@ def _varint(view: memoryview, at: int) -> tuple[int, int]:
     raise ValueError("it ends too early")
 
 
-def _first(view: memoryview | int, *path: int) -> memoryview | int | None:
+def _first(view: memoryview | int | None, *path: int) -> memoryview | int | None:
     """The content of the field at the end of a path of field numbers; None where there is none."""
     for wanted in path:
         if view is None:
-            return None
-        view = next((part for number, part in _fields(view) if number == wanted), None)  # type: ignore[assignment]
+            break
+        view = next((part for number, part in _fields(view) if number == wanted), None)
     return view
 
 

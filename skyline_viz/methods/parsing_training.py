@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import cv2
 import numpy as np
@@ -35,6 +36,10 @@ WEIGHT_DECAY = 1e-4
 
 SCALES = (0.8, 1.25)
 """Least and largest factor by which a photo is scaled at random."""
+
+
+Batch: TypeAlias = tuple[Any, Any, Any]
+"""Photos ``(N, 3, H, W)``, shares of sky ``(N, H, W)`` and which of them count, as tensors."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,28 +106,52 @@ def fit(
     net: SceneNet, lessons: Sequence[Lesson], epochs: int, rng: np.random.Generator, gentle: bool
 ) -> None:
     """Train a network in place; `gentle` is the lower learning rate of pretrained ones."""
-    batch = min(BATCH, len(lessons))
-    steps = epochs * len(lessons) // batch
+    steps = max(epochs * len(lessons) // BATCH, 1)
     rate = RATE / 20 if gentle else RATE
     optimiser = torch.optim.AdamW(net.parameters(), lr=rate, weight_decay=WEIGHT_DECAY)
-    tallest = max(len(one.photo) for one in lessons)
-    size = (tallest + -tallest % 32, lessons[0].photo.shape[1] + -lessons[0].photo.shape[1] % 32)
-    order: list[int] = []
+    batches = shown(lessons, rng)
     net.train()
     for step in range(steps):
         for group in optimiser.param_groups:
             group["lr"] = rate * eased(step / steps)
-        while len(order) < batch:
-            order += rng.permutation(len(lessons)).tolist()
-        shown = [varied(lessons[order.pop(0)], size, rng) for _ in range(batch)]
-        photos = torch.from_numpy(np.concatenate([photo for photo, _ in shown]))
-        target, counts = torch.from_numpy(np.stack([one for _, one in shown])).unbind(-1)
+        photos, target, counts = next(batches)
         loss = fn.binary_cross_entropy_with_logits(net(photos)[:, 0], target, counts)
         optimiser.zero_grad()
         (loss / counts.mean().clamp(min=1e-3)).backward()
         torch.nn.utils.clip_grad_norm_(net.parameters(), 5.0)
         optimiser.step()
     net.eval()
+    settle(net, lessons, batches)
+
+
+def settle(net: SceneNet, lessons: Sequence[Lesson], batches: Iterator[Batch]) -> None:
+    """Measure the means and variances of the batch normalisation anew, with the final weights.
+
+    Those gathered in training lag behind the weights; after a short one they are far off.
+    """
+    layers = [layer for layer in net.modules() if isinstance(layer, torch.nn.BatchNorm2d)]
+    for layer in layers:
+        layer.reset_running_stats()
+        layer.momentum = None  # the plain mean of all batches
+        layer.train()
+    with torch.no_grad():
+        for _ in range(2 * max(len(lessons) // BATCH, 1) if layers else 0):
+            net(next(batches)[0])
+    net.eval()
+
+
+def shown(lessons: Sequence[Lesson], rng: np.random.Generator) -> Iterator[Batch]:
+    """Batches without end: photos, each varied, all shown equally often."""
+    tallest = max(len(one.photo) for one in lessons)
+    rows, columns = (side + -side % 32 for side in (tallest, lessons[0].photo.shape[1]))
+    order: list[int] = []
+    while True:
+        while len(order) < BATCH:
+            order += rng.permutation(len(lessons)).tolist()
+        chosen = [varied(lessons[order.pop(0)], (rows, columns), rng) for _ in range(BATCH)]
+        photos = torch.from_numpy(np.concatenate([photo for photo, _ in chosen]))
+        target, counts = torch.from_numpy(np.stack([one for _, one in chosen])).unbind(-1)
+        yield photos, target, counts
 
 
 def eased(done: float) -> float:

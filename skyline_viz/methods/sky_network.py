@@ -8,7 +8,8 @@ first output is one of
 * ``(1, 1, h, w)`` or ``(1, h, w)``: the logit or the probability of sky;
 * the same of integers: a map of labels, of which one is the sky.
 
-It may be smaller than the input, and is scaled back to the photo.
+It may be smaller than the input, and is scaled back to the photo. A network that takes ``(1, h, w,
+3)`` may give ``(1, h, w, C)``, too.
 """
 
 from __future__ import annotations
@@ -99,7 +100,7 @@ class SkyNetwork:
     def _of_class(self, output: np.ndarray[Any, np.dtype[Any]], labels: bool, last: bool) -> F32:
         """Probability of sky in what the network gave, at its size."""
         shape = output.shape
-        if output.ndim == 4 and last and shape[3] != shape[1]:
+        if output.ndim == 4 and last and shape[3] < shape[1]:  # channels last, as they came
             output = output.transpose(0, 3, 1, 2)
         if output.ndim == 3:
             output = output[:, None]
@@ -111,19 +112,19 @@ class SkyNetwork:
         if labels and classes == 1:
             if self.sky_class < 0:
                 raise MethodError(f"{self.network} has no class {self.sky_class}.")
-            return (output[0, 0] == self.sky_class).astype(np.float32)
+            return np.asarray(output[0, 0] == self.sky_class, np.float32)
         if not 0 <= self.sky_class < classes:
             raise MethodError(
                 f"{self.network} has no class {self.sky_class}: it tells {classes}, from 0."
             )
-        values = output[0].astype(np.float32)
+        values: F32 = output[0].astype(np.float32)
         if classes == 1:
             inside = values.min() >= 0 and values.max() <= 1
             return values[0] if inside else sigmoid(values[0])
         if values.min() < 0 or np.abs(values.sum(axis=0) - 1).max() > 1e-2:
             values = np.exp(values - values.max(axis=0))
             values /= values.sum(axis=0)
-        return values[self.sky_class]
+        return np.asarray(values[self.sky_class], np.float32)
 
     @cached_property
     def _network(self) -> Network:
