@@ -1,8 +1,14 @@
 """Tests of the extra ``deep``; without its packages they are reported by name as not run."""
 
 from importlib import import_module
+from importlib.util import find_spec
 
 import pytest
+
+needs_deep = pytest.mark.skipif(
+    find_spec("torch") is None or find_spec("onnx") is None,
+    reason="not run, the extra 'deep' is not installed",
+)
 
 
 def deep(module):

@@ -27,8 +27,8 @@ class Methods:
     network: Annotated[Path | None, tyro.conf.arg(metavar="FILE.onnx")] = None
     """A network that segments the sky, as one more method."""
 
-    sky_class: int = 1
-    """Which class of the network is sky, counted from 0."""
+    sky_class: int = 0
+    """Which class of the network is sky, from 0; 0 where it gives the sky alone."""
 
     @property
     def given(self) -> bool:
@@ -48,7 +48,7 @@ class Methods:
         if self.network is not None:
             from skyline_viz.methods.sky_network import SkyNetwork  # noqa: PLC0415
 
-            found.append(SkyNetwork.load(self.network, self.sky_class))
+            found.append(SkyNetwork(self.network, self.sky_class))
         names = [one.name for one in found]
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:

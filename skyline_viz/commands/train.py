@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from skyline_viz.datasets import DatasetItem
+    from skyline_viz.methods.protocol import LearnedMethod
 
 MethodToTrain: TypeAlias = Annotated[MethodName, tyro.conf.arg(metavar="METHOD")]
 
@@ -34,6 +35,9 @@ class Train:
 
     method: MethodToTrain = "default"
     """What to train: our filter bank, or one of the earlier methods that learn."""
+
+    pretrained: Annotated[Path | None, tyro.conf.arg(metavar="FILE.pth")] = None
+    """Pretrained VGG-16 weights for the FCNs and SegNet, which then have its full width."""
 
     seed: int = 0
     """Seed of the negative samples; the same seed and photos give the same bank."""
@@ -73,6 +77,13 @@ class Train:
         print(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
 
+    def _pretrained(self, method: LearnedMethod) -> LearnedMethod:
+        from skyline_viz.methods.parsing import SceneParsing  # noqa: PLC0415
+
+        if not isinstance(method, SceneParsing):
+            raise UsageError(f"--pretrained is for FCNs and SegNet, not for {method.name}.")
+        return replace(method, width=1.0, pretrained=self.pretrained)
+
     def _train_method(self, dataset: str, items: Sequence[DatasetItem]) -> int:
         from skyline_viz.methods.protocol import LearnedMethod  # noqa: PLC0415
         from skyline_viz.methods.registry import Trained, make_method, save_method  # noqa: PLC0415
@@ -80,6 +91,8 @@ class Train:
         method = make_method(self.method)
         if not isinstance(method, LearnedMethod):
             raise UsageError(f"the method {self.method} has nothing to learn.")
+        if self.pretrained is not None:
+            method = self._pretrained(method)
         fitted = method.fit(items, self.seed)
         save_method(fitted, self.out, Trained(dataset, len(items), self.seed))
         print(f"{self.method}, trained on {counted(len(items), 'photo')} of {dataset}")

@@ -29,11 +29,15 @@ FORMAT, VERSION = "skyline-method", 1
 _CLASSES = {
     "edges": ("edges_only", "EdgesOnly"),
     "gradient": ("gradient", "GradientCost"),
-    "sift-hog": ("sift_hog", "SiftHog"),
+    "sift-hog-edges": ("sift_hog", "SiftHogEdges"),
+    "sift-hog-scores-gradient": ("sift_hog", "SiftHogScoresGradient"),
+    "sift-hog-scores": ("sift_hog", "SiftHogScores"),
     "svm": ("dense_scores", "SvmScores"),
     "cnn": ("cnn_scores", "CnnScores"),
-    "fcn": ("parsing", "SceneParsing"),
-    "segnet": ("parsing", "SceneParsing"),
+    "fcn-8s": ("parsing", "Fcn8s"),
+    "fcn-16s": ("parsing", "Fcn16s"),
+    "fcn-32s": ("parsing", "Fcn32s"),
+    "segnet": ("parsing", "SegNet"),
 }
 """Module and class of the methods whose names begin so."""
 
@@ -99,7 +103,7 @@ def save_method(method: Method, path: str | os.PathLike[str], trained: Trained) 
         "trained": asdict(trained),
     }
     arrays: dict[str, Any] = {
-        "header": np.frombuffer(json.dumps(header).encode(), np.uint8),
+        "header": np.frombuffer(json.dumps(header, default=str).encode(), np.uint8),
         **getattr(method, "model", {}),
     }
     with replacing(path) as temporary, temporary.open("wb") as file:
@@ -126,12 +130,22 @@ def load_method(path: Path) -> Method:
     if header.get("version") != VERSION:
         raise MethodError(f"{path} is of version {header.get('version')}, not {VERSION}.")
     try:
+        if header["name"] == "network":
+            return _network(header["settings"])
         made: Any = make_method(str(header["name"]))
         model = {"model": arrays} if isinstance(made, LearnedMethod) else {}
         loaded: Method = type(made)(name=header["name"], **model, **header["settings"])
     except (KeyError, TypeError) as error:
         raise MethodError(f"{path} is damaged: {error}.") from error
     return loaded
+
+
+def _network(settings: dict[str, Any]) -> Method:
+    """A network from its settings; the file is the user's, and stays where it is."""
+    from skyline_viz.methods.sky_network import SkyNetwork  # noqa: PLC0415
+
+    mean, std = tuple(settings.pop("mean")), tuple(settings.pop("std"))
+    return SkyNetwork(Path(settings.pop("network")), mean=mean, std=std, **settings)
 
 
 def method_digest(method: Method) -> str:

@@ -1,0 +1,190 @@
+"""Running networks from ONNX files: what goes in and comes out, and OpenCV to run them.
+
+OpenCV runs a network but does not tell what it wants. The file does: it is a protocol buffer, of
+which only the few fields are read that describe inputs and outputs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import cv2
+import numpy as np
+
+from skyline_viz.arrays import F32, U8
+from skyline_viz.methods.protocol import MethodError
+
+_GRAPH, _INITIALIZER, _INPUT, _OUTPUT = 7, 5, 11, 12
+_INTEGERS = frozenset({2, 3, 4, 5, 6, 7, 9, 12, 13})  # element types of ONNX, bool among them
+
+
+@dataclass(frozen=True)
+class Value:
+    """An input or an output."""
+
+    name: str
+    """Its name."""
+
+    shape: tuple[int, ...]
+    """Its shape; 0 where the size is free. Empty where the file does not say."""
+
+    whole: bool
+    """Whether it holds integers."""
+
+
+@dataclass(frozen=True)
+class Header:
+    """Inputs, without the weights, and outputs of a network."""
+
+    inputs: tuple[Value, ...]
+    outputs: tuple[Value, ...]
+
+
+def read_header(data: bytes) -> Header:
+    """Inputs and outputs of an ONNX file.
+
+    Raises:
+        ValueError: It is no ONNX file.
+    """
+    view = memoryview(data)
+    graphs = [part for number, part in _fields(view) if number == _GRAPH]
+    if len(graphs) != 1 or not isinstance(graphs[0], memoryview):
+        raise ValueError("it is not an ONNX file")
+    inputs, outputs, weights = [], [], set()
+    for number, part in _fields(graphs[0]):
+        if number == _INITIALIZER:
+            weights.add(_text(_first(part, 8)))
+        elif number == _INPUT:
+            inputs.append(_value(part))
+        elif number == _OUTPUT:
+            outputs.append(_value(part))
+    return Header(tuple(one for one in inputs if one.name not in weights), tuple(outputs))
+
+
+class Network:
+    """A network that is ready to run."""
+
+    def __init__(self, data: bytes, name: str) -> None:
+        """Read an ONNX file.
+
+        Args:
+            data: Its content.
+            name: What to call it in messages.
+
+        Raises:
+            MethodError: It is no ONNX file, or OpenCV cannot run such a network.
+        """
+        self.name = name
+        try:
+            self.header = read_header(data)
+        except ValueError:
+            raise MethodError(f"{name} is not an ONNX file.") from None
+        with self._explained("cannot be read by OpenCV"):
+            self._net = cv2.dnn.readNetFromONNX(np.frombuffer(data, np.uint8))
+
+    def run(self, blob: F32) -> np.ndarray[Any, np.dtype[Any]]:
+        """The first output for an input ``(1, ...)``.
+
+        Raises:
+            MethodError: The network does not run on it, or gives something that is no number.
+        """
+        with self._explained("cannot be run"):
+            self._net.setInput(blob, self.header.inputs[0].name)
+            output = np.asarray(self._net.forward(self.header.outputs[0].name))
+        if not np.isfinite(output).all():
+            raise MethodError(f"{self.name} gives values that are no finite numbers.")
+        return output
+
+    @contextmanager
+    def _explained(self, trouble: str) -> Iterator[None]:
+        """Make one sentence of what OpenCV raises, without what it prints besides."""
+        level = cv2.utils.logging.getLogLevel()
+        cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+        try:
+            yield
+        except cv2.error as error:
+            reason = " ".join(str(error.err or error).split())[:200].rstrip(". ")
+            raise MethodError(f"{self.name} {trouble}: {reason}.") from error
+        finally:
+            cv2.utils.logging.setLogLevel(level)
+
+
+def normalised(photo: U8, mean: tuple[float, ...], std: tuple[float, ...]) -> F32:
+    """Input ``(1, 3, H, W)`` of a photo ``(H, W, 3)`` uint8: in [0, 1], less mean, over std."""
+    values = (photo / np.float32(255) - np.array(mean)) / np.array(std)
+    return np.ascontiguousarray(values.transpose(2, 0, 1)[None], np.float32)
+
+
+def padded(photo: U8, multiple: int = 32) -> U8:
+    """A photo whose lower and right rim is repeated until its sides are such multiples."""
+    down, across = (-side % multiple for side in photo.shape[:2])
+    repeated: U8 = cv2.copyMakeBorder(photo, 0, down, 0, across, cv2.BORDER_REPLICATE)
+    return repeated
+
+
+def _fields(view: memoryview | int) -> Iterator[tuple[int, memoryview | int]]:
+    """Numbers and contents of the fields of a protocol buffer.
+
+    Raises:
+        ValueError: It is none.
+    """
+    if isinstance(view, int):
+        raise ValueError("a number, not a message")
+    at = 0
+    while at < len(view):
+        key, at = _varint(view, at)
+        kind = key & 7
+        if kind == 0:
+            number, at = _varint(view, at)
+            yield key >> 3, number
+            continue
+        if kind == 2:
+            length, at = _varint(view, at)
+        elif kind in (1, 5):
+            length = 8 if kind == 1 else 4
+        else:
+            raise ValueError("no such kind of field")
+        if at + length > len(view):
+            raise ValueError("it ends too early")
+        yield key >> 3, view[at : at + length]
+        at += length
+
+
+def _varint(view: memoryview, at: int) -> tuple[int, int]:
+    number = 0
+    for shift in range(0, 70, 7):
+        if at >= len(view):
+            break
+        byte = view[at]
+        at += 1
+        number |= (byte & 127) << shift
+        if byte < 128:
+            return number, at
+    raise ValueError("it ends too early")
+
+
+def _first(view: memoryview | int | None, *path: int) -> memoryview | int | None:
+    """The content of the field at the end of a path of field numbers; None where there is none."""
+    for wanted in path:
+        if view is None:
+            break
+        view = next((part for number, part in _fields(view) if number == wanted), None)
+    return view
+
+
+def _text(part: memoryview | int | None) -> str:
+    return bytes(part).decode("utf-8", "replace") if isinstance(part, memoryview) else ""
+
+
+def _value(part: memoryview | int) -> Value:
+    kind = _first(part, 2, 1, 1)
+    shape = _first(part, 2, 1, 2)
+    sizes = []
+    for number, dimension in _fields(shape) if shape is not None else ():
+        if number == 1:
+            size = _first(dimension, 1)
+            sizes.append(size if isinstance(size, int) else 0)
+    return Value(_text(_first(part, 1)), tuple(sizes), kind in _INTEGERS)
