@@ -17,7 +17,17 @@ from skyline_viz.config import DetectorConfig, TrainingConfig
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
-COMMANDS = ("detect", "inspect", "gallery", "train", "evaluate", "diagnose", "render", "demo")
+COMMANDS = (
+    "detect",
+    "inspect",
+    "gallery",
+    "train",
+    "evaluate",
+    "tables",
+    "diagnose",
+    "render",
+    "demo",
+)
 LABELLING = ("open", "export", "import", "status", "agreement", "backup")
 PROGRAMS = [(main, COMMANDS), (annotate.cli.main, LABELLING)]
 

@@ -91,6 +91,10 @@ class LearnedMethod:
         """See `Learner.sharing`."""
         return replace(self, model=other.model)
 
+    def detect(self, photo: U8) -> Detection:
+        """See `Method.detect`."""
+        raise NotImplementedError
+
     def part(self, name: str) -> npt.NDArray[np.generic]:
         """An array of the model.
 
