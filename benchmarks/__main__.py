@@ -13,7 +13,7 @@ import platform
 import sys
 from pathlib import Path
 
-from benchmarks import accuracy, causes, filters, labelling, recordings, robustness, speed
+from benchmarks import accuracy, causes, filters, labelling, methods, recordings, robustness, speed
 from skyline_viz import __version__
 from skyline_viz.files import write_text
 
@@ -34,6 +34,7 @@ def main() -> None:
         parts.append(f"Real photographs: **not run**, {web or 'no folder of data'} is not there.")
     else:
         parts += [accuracy.cross_validated(web), robustness.varied(web), filters.studies(web)]
+        parts.append(methods.compared(web))
     parts += [accuracy.rendered(ROOT / "sample_data"), speed.measured(web, ROOT / "sample_data")]
     parts.append(recordings.measured(web, ROOT / "sample_data"))
     parts += [labelling.measured(web, data), causes.confusion()]

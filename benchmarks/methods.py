@@ -1,0 +1,26 @@
+"""The earlier methods beside ours, as ``skyline-viz tables`` measures them."""
+
+from pathlib import Path
+
+from skyline_viz import open_dataset
+from skyline_viz.methods.registry import NAMES, make_method
+from skyline_viz.methods.testing import compare_methods
+from skyline_viz.methods.timing import time_methods
+from skyline_viz.tables import table_1, table_5, table_6
+from skyline_viz.tables_report import markdown
+
+FOLDS = 2
+
+
+def compared(web: Path) -> str:
+    """Tables I, V and VI over the photographs of a data set, two folds."""
+    items = [item for item in open_dataset(web) if item.truth_path]
+    methods = [make_method(name) for name in NAMES]
+    found = compare_methods(items, methods, folds=FOLDS, workers=0)
+    assert not found.failures, found.failures
+    timings = time_methods(found.fitted, items[0].photo())
+    measured = {web.name: found}
+    page = markdown(
+        [table_1(measured, FOLDS), table_5(measured, FOLDS), table_6(timings, found.fitted)]
+    )
+    return page.replace("## Table", "## The earlier methods: Table").rstrip()
