@@ -36,6 +36,9 @@ class MethodContents:
     filters: bool = False
     """Whether it is our detector, with other settings or filters."""
 
+    edges: bool = True
+    """Whether it looks for edges; else all pixels are candidates."""
+
     maps: tuple[str, ...] = ()
     """Names of its further maps."""
 
@@ -287,12 +290,13 @@ def _methods_tab(contents: Contents) -> rrb.Container:
 def _method_tab(contents: Contents, one: MethodContents) -> rrb.Container:
     """The stages of a method, as the stages of ours."""
     own = Contents(contents.height, contents.width, filters=one.filters, maps=one.maps)
+    no_view = ("Photo",) if one.edges else ("Photo", "Edges")
     line = f"{entities.METHOD_LINES}/{one.name}"
     views = {}
     for title, shown in _figure_1(own).items():
         if title.endswith("Path"):
             views["Path"] = [entities.PHOTO, *_with_halos([line, entities.TRUTH])]
-        elif not title.endswith("Photo"):
+        elif not title.endswith(no_view):
             views[title.split(") ", 1)[1]] = [below(_stages_of(one), stage) for stage in shown]
     pictures = [_photo_view(title, shown) for title, shown in views.items()]
     report = rrb.TextDocumentView(origin=below(_stages_of(one), entities.REPORT), name="Report")
