@@ -201,7 +201,7 @@ def remedies_table(found: Sequence[Diagnosed]) -> str:
         [name, f"{good} of {total}", str(bad), f"{change:+.2f} px"]
         for name, good, bad, change in sums
     ]
-    head = ["setting", "repairs", "breaks", "A_err"]
+    head = ["setting", "repairs", "breaks", "A_err changes by"]
     lines = ["What would help, tried on all photos", _drawn(head, rows)]
     if not any(good for _, good, _, _ in sums):
         lines.append("None of these helps: no wrong segment is repaired.")
