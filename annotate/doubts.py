@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 from annotate.store import Photo
 
 CAUSE = "truth doubtful"
 """The cause of segments whose annotation is to be checked."""
+
+
+VERSION = 1
+"""The version of diagnoses that is read."""
 
 
 class DoubtsError(ValueError):
@@ -25,21 +30,38 @@ def read_doubts(path: Path) -> dict[str, int]:
     Raises:
         DoubtsError: It cannot be read, or is something else.
     """
+    if not path.exists():
+        raise DoubtsError(f"{path} does not exist.")
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
-        if document["format"] != "skyline-diagnosis":
-            raise DoubtsError(f"{path} is no diagnosis.")
-        found = {}
-        for photo in document["photos"]:
-            runs = [one["columns"] for one in photo["segments"] if one["cause"] == CAUSE]
-            if runs:
-                first, last = max(runs, key=lambda run: run[1] - run[0])
-                found[str(photo["name"])] = (int(first) + int(last)) // 2
-    except DoubtsError:
-        raise
-    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-        raise DoubtsError(f"{path} holds no diagnosis: {error}.") from error
+    except OSError as error:
+        reason = (error.strerror or "it is broken").lower()
+        raise DoubtsError(f"{path} cannot be read: {reason}.") from error
+    except (ValueError, RecursionError) as error:
+        raise DoubtsError(f"{path} holds no diagnosis: it is not JSON.") from error
+    if not isinstance(document, dict) or document.get("format") != "skyline-diagnosis":
+        raise DoubtsError(f"{path} holds no diagnosis.")
+    if document.get("version") != VERSION:
+        raise DoubtsError(f"{path} is not a diagnosis of version {VERSION}, the only one known.")
+    try:
+        return _doubted(document)
+    except (ValueError, KeyError, TypeError, IndexError, OverflowError) as error:
+        raise DoubtsError(f"{path} holds a diagnosis that is damaged.") from error
+
+
+def _doubted(document: dict[str, Any]) -> dict[str, int]:
+    found = {}
+    for photo in document["photos"]:
+        runs = [_columns(one["columns"]) for one in photo["segments"] if one["cause"] == CAUSE]
+        if runs:
+            first, last = max(runs, key=lambda run: run[1] - run[0])
+            found[str(photo["name"])] = (first + last) // 2
     return found
+
+
+def _columns(run: Sequence[float]) -> tuple[int, int]:
+    first, last = run
+    return int(first), int(last)
 
 
 def columns_of(doubts: dict[str, int], photos: Iterable[Photo]) -> dict[int, int]:
@@ -52,6 +74,6 @@ def columns_of(doubts: dict[str, int], photos: Iterable[Photo]) -> dict[int, int
         name = PurePosixPath(photo.name)
         for known in (photo.name, name.name, name.stem):
             if known in doubts:
-                found[photo.id] = min(doubts[known], photo.width - 1)
+                found[photo.id] = min(max(doubts[known], 0), photo.width - 1)
                 break
     return found

@@ -142,7 +142,7 @@ def sentence(error: BaseException) -> str:
         return f"{folder if name.startswith('.') and folder else path}: {reason}"
     if isinstance(error, MemoryError):
         return "it does not fit into memory"
-    ours = type(error).__module__.startswith("skyline_viz")
+    ours = type(error).__module__.startswith(("skyline_viz", "annotate"))
     if text and (ours or type(error) in (ValueError, OSError)):
         return text
     return f"unexpected {type(error).__name__}: {text}"

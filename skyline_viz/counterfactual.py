@@ -1,17 +1,17 @@
 """What the path would be if one thing were different: the proof behind a diagnosis.
 
 A `Case` is a detection beside its truth. Each of its changes makes the truth line what it should
-have been in one respect (edges, scores, slopes), or takes the other line away, within a few
+have been in one respect (edges, scores, slopes), or other lines are taken away, within a few
 columns, and the path is searched again there. Nothing else changes, so what comes back was due to
 that one thing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -24,13 +24,14 @@ from skyline_viz.metrics import column_errors
 from skyline_viz.path import cheapest_end, sweep, trace
 from skyline_viz.skyline import Skyline
 
-Change: TypeAlias = Literal["missed edge", "starved bin", "misjudged", "too steep", "cheaper path"]
-"""What is made right: edges are put where the truth has none; scores of the truth's edges are
-raised, where their bins are starved, and where they are not; steps of the truth are allowed; the
-edges of the path are taken away."""
+Change: TypeAlias = Literal["missed edge", "starved bin", "misjudged", "too steep"]
+"""What of the truth is made right: edges are put where it has none; scores of its edges are
+raised, where their bins are starved, and where they are not; its steps are allowed."""
 
-CHANGES: tuple[Change, ...] = ("missed edge", "starved bin", "misjudged", "too steep")
-"""The changes of the truth; that of the path is tried where these do not help."""
+CHANGES: tuple[Change, ...] = get_args(Change)
+
+REPAIRED = 0.8
+"""Share of a segment's wrong columns that have to be right for the path to have come back."""
 
 REFERENCE_HEIGHT = 519
 """Rows of the photos for which tolerances in pixels are meant; larger photos have larger ones."""
@@ -83,10 +84,9 @@ class Case:
         """Rows within which an edge belongs to a line."""
         return max(round(scaled(_NEAR, len(self.detection.edges))), int(_NEAR))
 
-    @cached_property
-    def _away(self) -> Bool:
-        """``(W,)`` columns in which the path does not run along the truth."""
-        away: Bool = np.abs(self.path_rows - self.rows) > self.near
+    def away(self, rows: Int) -> Bool:
+        """``(W,)`` columns in which a line ``(W,)`` does not run along the truth."""
+        away: Bool = np.abs(rows - self.rows) > self.near
         return away
 
     @cached_property
@@ -145,22 +145,33 @@ class Case:
         if change == "too steep":
             around = within.copy()
             around[max(first - 1, 0) : last + 2] = True
-            return around & (self.steps > 1)
-        if change == "cheaper path":
-            return within & self._away
+            return around & (self.steps > min(1, detection.delta))
         starved = np.zeros(self.truth.width, np.bool_)
         starved[on_edge] = detection.starved[self.pixels[on_edge]]
         low = np.zeros(self.truth.width, np.bool_)
         low[on_edge] = detection.scores[self.pixels[on_edge]] < _LOW_SCORE * self.typical[0]
         return within & on_edge & low & (starved if change == "starved bin" else ~starved)
 
-    def excursion(self, first: int, last: int) -> tuple[int, int]:
-        """Columns from where the path leaves the truth to where it is back, around wrong ones.
+    def barred(self, rows: Int, first: int, last: int) -> Bool:
+        """``(W,)`` columns in which a line is taken away: where it is off around some columns."""
+        start, stop = self.excursion(first, last, rows)
+        within: Bool = np.zeros(self.truth.width, np.bool_)
+        within[start : stop + 1] = True
+        return within & self.away(rows) & self.truth.visible
+
+    def excursion(self, first: int, last: int, rows: Int | None = None) -> tuple[int, int]:
+        """Columns from where a line leaves the truth to where it is back, around wrong ones.
 
         What drew the path away may lie in columns where it is not yet off by the tolerance.
+
+        Args:
+            first: First wrong column.
+            last: Last wrong column.
+            rows: ``(W,)`` the line; the path unless given.
         """
-        there = np.flatnonzero(~self._away[: first + 1])
-        back = np.flatnonzero(~self._away[last:])
+        away = self.away(self.path_rows if rows is None else rows)
+        there = np.flatnonzero(~away[: first + 1])
+        back = np.flatnonzero(~away[last:])
         start = int(there[-1]) + 1 if len(there) else 0
         stop = last + int(back[0]) - 1 if len(back) else self.truth.width - 1
         return min(start, first), max(stop, last)
@@ -174,8 +185,16 @@ class Case:
         stop = int(right[0]) + min(last + room, self.truth.width - 1) if len(right) else -1
         return start, stop if stop >= 0 else self.truth.width - 1
 
-    def search(self, changes: Iterable[Change], first: int, last: int) -> tuple[int, Int]:
+    def search(
+        self, changes: Iterable[Change], first: int, last: int, without: Sequence[Int] = ()
+    ) -> tuple[int, Int]:
         """The path with the truth's columns from `first` to `last` made right in some respects.
+
+        Args:
+            changes: What is made right.
+            first: First column in which it is.
+            last: Last one.
+            without: Lines ``(W,)`` that are taken away there, see `barred`.
 
         Returns:
             First column of the part that was searched again, and the rows from there on.
@@ -205,12 +224,13 @@ class Case:
                 links = columns - start - 1
                 inside = (links >= 0) & (links < len(reach))
                 reach[links[inside]] = np.maximum(reach[links[inside]], steps[inside])
-            elif change == "cheaper path":
-                for away in range(-self.near, self.near + 1):
-                    beside = np.clip(self.path_rows[columns] + away, 0, cost.shape[1] - 1)
-                    cost[columns - start, beside] += detection.non_edge_cost
             else:
                 cost[columns - start, rows] -= self.saved(columns)
+        for line in without:
+            columns = start + np.flatnonzero(self.barred(line, first, last)[start : stop + 1])
+            for away in range(-self.near, self.near + 1):
+                beside = np.clip(line[columns] + away, 0, cost.shape[1] - 1)
+                cost[columns - start, beside] += detection.non_edge_cost
         for column, fixed in ((start, start > 0), (stop, stop < self.truth.width - 1)):
             if fixed or self.right[column]:
                 kept = cost[column - start, self.path_rows[column]]
@@ -218,12 +238,17 @@ class Case:
                 cost[column - start, self.path_rows[column]] = kept
         return start, _cheapest(cost, np.minimum(reach, cost.shape[1] - 1), detection.link_weight)
 
+    def whole(self, start: int, rows: Int) -> Int:
+        """``(W,)`` the path with a part of it replaced by what a search found."""
+        line = self.path_rows.copy()
+        line[start : start + len(rows)] = rows
+        return line
+
     def repaired(self, start: int, rows: Int, first: int, last: int) -> float:
-        """Share of the visible columns from `first` to `last` in which a path is right."""
-        part = slice(first, last + 1)
-        off = np.abs(rows[first - start : last + 1 - start] - self.truth.rows[part])
-        seen = self.truth.visible[part]
-        return float((off[seen] <= self.tolerance).mean()) if seen.any() else 1.0
+        """Share of the wrong columns from `first` to `last` in which another path is right."""
+        wrong = first + np.flatnonzero(self.errors[first : last + 1] > self.tolerance)
+        off = np.abs(rows[wrong - start] - self.truth.rows[wrong])
+        return float((off <= self.tolerance).mean()) if len(wrong) else 1.0
 
     @cached_property
     def _on_edges(self) -> tuple[Int, Int]:

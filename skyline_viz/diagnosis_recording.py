@@ -34,7 +34,8 @@ _STAGES = {
 }
 """Colours that people with colour-vision deficiency tell apart."""
 
-_NAMED = 3  # segments whose causes are written on the photo
+_NAMED = 3  # segments whose causes are written on the photo, those with the largest total error
+_LEAST_FRAME = 6  # columns that the frame of a segment is wide at least
 _BEYOND = 8  # columns beside a segment in which the counterfactual path is drawn
 _SMOOTH = 9  # columns over which stacked costs are averaged
 
@@ -65,20 +66,22 @@ def log_diagnosis(
     case = Case(detection, truth, diagnosis.tolerance)
     height = len(detection.photo)
     boxes, lines = [], []
+    room = height / 40
     for segment in diagnosis.segments:
         first, last = segment.columns
         part = slice(first, last + 1)
         both = np.concatenate([truth.rows[part], detection.skyline.rows[part]])
-        room = height / 40
-        boxes.append((first, both.min() - room, last + 1 - first, np.ptp(both) + 2 * room))
-        if segment.cause != "truth doubtful":
+        wide = max(last + 1 - first, _LEAST_FRAME)
+        left = (first + last + 1 - wide) / 2
+        boxes.append((left, both.min() - room, wide, np.ptp(both) + 2 * room))
+        if segment.proof and segment.cause != "truth doubtful":
             lines.append(_around(segment))
     corners = np.array(boxes, np.float32).reshape(-1, 4)
-    by_size = sorted(range(len(boxes)), key=lambda at: -diagnosis.segments[at].length)
-    named = by_size[:_NAMED]
+    by_error = sorted(range(len(boxes)), key=lambda at: -diagnosis.segments[at].total_error)
+    named = by_error[:_NAMED]
     causes = [diagnosis.segments[at].cause for at in named]
     for entity, shown, labels in (
-        (entities.SEGMENTS, by_size[_NAMED:], None),
+        (entities.SEGMENTS, by_error[_NAMED:], None),
         (f"{entities.SEGMENTS}/largest", named, causes),
     ):
         frames = rr.Boxes2D(
@@ -169,4 +172,5 @@ def _points(columns: npt.NDArray[np.intp], rows: Int) -> npt.NDArray[np.float32]
 
 
 def _smooth(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    return np.convolve(values, np.full(_SMOOTH, 1 / _SMOOTH), mode="same")
+    padded = np.pad(values, _SMOOTH // 2, mode="edge")  # or it would droop at the rims
+    return np.convolve(padded, np.full(_SMOOTH, 1 / _SMOOTH), mode="valid")

@@ -6,15 +6,17 @@ import csv
 import json
 import os
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from skyline_viz.causes import CAUSES
 from skyline_viz.config import DetectorConfig, EdgeSource
+from skyline_viz.counterfactual import REPAIRED, Case
 from skyline_viz.detector import Detector, FilterDetection
-from skyline_viz.diagnosis import REPAIRED, Diagnosis, diagnose, failing_runs
+from skyline_viz.diagnosis import Diagnosis, diagnose, failing_runs
 from skyline_viz.evaluation import Test
 from skyline_viz.files import replacing, write_text
 from skyline_viz.metrics import column_errors
@@ -23,9 +25,10 @@ from skyline_viz.skyline import Skyline, SkylineError
 if TYPE_CHECKING:
     from rich.table import Table
 
+_GROWN = 1.5  # times its length from which on a segment is broken
 _HEADER = (
-    "photo", "first", "last", "cause", "contributing", "mean_error", "worst_error", "margin",
-    "evidence",
+    "photo", "first", "last", "cause", "contributing", "mean_error", "worst_error",
+    "total_error", "margin", "evidence",
 )  # fmt: skip
 
 
@@ -34,13 +37,16 @@ class Remedy:
     """What another setting does to a photo."""
 
     name: str
-    """What was set, in words."""
+    """What was set, in words, and how on the command line where it is the same for all photos."""
 
     repaired: int
     """Segments that are right then."""
 
     broken: int
-    """Segments that are wrong only then."""
+    """Segments that are wrong only then, or longer by more than half."""
+
+    change: float
+    """Change of the photo's A_err, in pixels; negative is better."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,10 +98,9 @@ def settings_to_try(
     """
     low, high = thresholds
     other: EdgeSource = "colour" if config.edge_source == "grey" else "grey"
-    return {
-        "half the Canny thresholds": replace(
-            config, fit_thresholds=False, low_threshold=low / 2, high_threshold=high / 2
-        ),
+    halved = replace(config, fit_thresholds=False, low_threshold=low / 2, high_threshold=high / 2)
+    settings = {
+        "half the Canny thresholds": halved,
         f"edges of the {other} photo": replace(config, edge_source=other),
         "twice the delta": replace(config, delta=2 * config.delta),
         "half the link weight": replace(config, link_weight=config.link_weight / 2),
@@ -103,22 +108,52 @@ def settings_to_try(
         "v more by 0.25": replace(config, v=min(config.v + 0.25, 1.0)),
         "half the cost of no edge": replace(config, non_edge_cost=config.non_edge_cost / 2),
     }
+    return {
+        f"{name}{_flags(config, changed)}": changed
+        for name, changed in settings.items()
+        if changed != config
+    }
+
+
+def _flags(config: DetectorConfig, changed: DetectorConfig) -> str:
+    """The flags that change settings; nothing where each photo has values of its own."""
+    if config.fit_thresholds != changed.fit_thresholds:
+        return ""
+    named = [one.name for one in fields(config)]
+    flags = [
+        f"--config.{name.replace('_', '-')} {_value(getattr(changed, name))}"
+        for name in named
+        if getattr(config, name) != getattr(changed, name)
+    ]
+    return f" ({' '.join(flags)})"
+
+
+def _value(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:g}"
 
 
 def try_remedies(
     detection: FilterDetection, truth: Skyline, found: Diagnosis
 ) -> tuple[Remedy, ...]:
     """Detect with other settings, and count segments that are right then, or wrong only then."""
-    remedies = []
+    case = Case(detection, truth, found.tolerance)
+    before = float(np.nanmean(case.errors))
     runs = [segment.columns for segment in found.segments]
+    remedies = []
     for name, config in settings_to_try(detection.config, detection.thresholds).items():
-        again = Detector(detection.bank, config).again(detection)
-        wrong = column_errors(again.skyline, truth) > found.tolerance
-        repaired = sum(1 - wrong[a : b + 1].mean() >= REPAIRED for a, b in runs)
-        new = failing_runs(wrong)
-        broken = sum(not any(a <= last and first <= b for a, b in runs) for first, last in new)
-        remedies.append(Remedy(name, int(repaired), broken))
+        skyline = Detector(detection.bank, config).again(detection).skyline
+        errors = column_errors(skyline, truth)
+        rows = skyline.rows.astype(np.int32)
+        repaired = sum(case.repaired(0, rows, *run) >= REPAIRED for run in runs)
+        broken = sum(_broken(run, runs) for run in failing_runs(errors > found.tolerance))
+        remedies.append(Remedy(name, repaired, broken, float(np.nanmean(errors)) - before))
     return tuple(remedies)
+
+
+def _broken(new: tuple[int, int], runs: Sequence[tuple[int, int]]) -> bool:
+    """Whether a run is new, or has grown by more than half."""
+    before = sum(last - first + 1 for first, last in runs if first <= new[1] and new[0] <= last)
+    return new[1] - new[0] + 1 > _GROWN * before
 
 
 def table(found: Sequence[Diagnosed]) -> str:
@@ -126,12 +161,12 @@ def table(found: Sequence[Diagnosed]) -> str:
     segments = [(one.name, segment) for one in found for segment in one.diagnosis.segments]
     if not segments:
         return "All are right: no column is off by more than the tolerance."
-    total = sum(segment.mean_error * segment.length for _, segment in segments)
+    total = sum(segment.total_error for _, segment in segments)
     rows = []
     for cause in CAUSES:
         mine = [(name, segment) for name, segment in segments if segment.cause == cause]
         if mine:
-            error = sum(segment.mean_error * segment.length for _, segment in mine)
+            error = sum(segment.total_error for _, segment in mine)
             columns = sum(segment.length for _, segment in mine)
             photos = len({name for name, _ in mine})
             rows.append(
@@ -144,21 +179,33 @@ def table(found: Sequence[Diagnosed]) -> str:
 
 
 def remedies_table(found: Sequence[Diagnosed]) -> str:
-    """Other settings, tried on all photos, the one that helps most first."""
+    """Other settings, tried on all photos, the one that helps most first; nothing without need."""
     total = sum(len(one.diagnosis.segments) for one in found)
-    sums: dict[str, list[int]] = {}
+    tried: dict[str, list[Remedy]] = {}
     for one in found:
         for remedy in one.remedies:
-            counts = sums.setdefault(remedy.name, [0, 0])
-            counts[0] += remedy.repaired
-            counts[1] += remedy.broken
-    if not total or not sums:
+            tried.setdefault(remedy.name, []).append(remedy)
+    if not total or not tried:
         return ""
-    rows = [
-        [name, f"{good} of {total}", str(bad)]
-        for name, (good, bad) in sorted(sums.items(), key=lambda one: one[1][1] - one[1][0])
+    sums = [
+        (
+            name,
+            sum(one.repaired for one in remedies),
+            sum(one.broken for one in remedies),
+            float(np.mean([one.change for one in remedies])),
+        )
+        for name, remedies in tried.items()
     ]
-    return "What would help, tried on all photos\n" + _drawn(["setting", "repairs", "breaks"], rows)
+    sums.sort(key=lambda one: (one[2] - one[1], one[3]))
+    rows = [
+        [name, f"{good} of {total}", str(bad), f"{change:+.2f} px"]
+        for name, good, bad, change in sums
+    ]
+    head = ["setting", "repairs", "breaks", "A_err changes by"]
+    lines = ["What would help, tried on all photos", _drawn(head, rows)]
+    if not any(good for _, good, _, _ in sums):
+        lines.append("None of these helps: no wrong segment is repaired.")
+    return "\n".join(lines)
 
 
 def in_full(one: Diagnosed) -> str:
@@ -166,8 +213,8 @@ def in_full(one: Diagnosed) -> str:
     diagnosis = one.diagnosis
     lines = [f"{one.name}  A_err {one.a_err:.2f} px"]
     if diagnosis.right:
-        return f"{lines[0]}\nRight: no column is off by more than {diagnosis.tolerance:g} px."
-    for segment in diagnosis.segments:
+        return f"{lines[0]}\n{diagnosis.said_right}"
+    for segment in diagnosis.by_error:
         first, last = segment.columns
         also = f", with {' and '.join(segment.contributing)}" if segment.contributing else ""
         lines += [
@@ -177,6 +224,8 @@ def in_full(one: Diagnosed) -> str:
         ]
         for trial in segment.trials:
             what = " and ".join(trial.changes)
+            if trial.lines:
+                what += f" ({trial.lines} {'line' if trial.lines == 1 else 'lines'} taken away)"
             lines.append(f"  {what}, {trial.columns} columns: {trial.repaired:.0%} come back")
         stages = [
             f"{name} {segment.truth_cost[name] - paid:+.1f}"
@@ -193,9 +242,14 @@ def write_csv(path: str | os.PathLike[str], found: Iterable[Diagnosed]) -> None:
         writer.writerow(_HEADER)
         for one in found:
             for segment in one.diagnosis.segments:
-                numbers = (segment.mean_error, segment.worst_error, segment.margin)
+                numbers = (
+                    segment.mean_error,
+                    segment.worst_error,
+                    segment.total_error,
+                    segment.margin,
+                )
                 writer.writerow(
-                    [one.name, *segment.columns, segment.cause, " ".join(segment.contributing)]
+                    [one.name, *segment.columns, segment.cause, "; ".join(segment.contributing)]
                     + [f"{number:.3f}" for number in numbers]
                     + [segment.evidence]
                 )
@@ -213,7 +267,17 @@ def write_json(path: str | os.PathLike[str], name: str, found: Iterable[Diagnose
         for one in found
     ]
     document = {"format": "skyline-diagnosis", "version": 1, "dataset": name, "photos": photos}
-    write_text(path, json.dumps(document, indent=1) + "\n")
+    write_text(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
+
+
+def write_photo(folder: str | os.PathLike[str], dataset: str, one: Diagnosed) -> tuple[Path, Path]:
+    """Write the diagnosis of one photo, as JSON and in Markdown; return the files."""
+    stem = Path(folder) / one.name
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    document, text = (stem.with_name(f"{stem.name}.{kind}") for kind in ("json", "md"))
+    write_json(document, dataset, [one])
+    write_text(text, one.diagnosis.markdown(one.name).rstrip("\n") + "\n")
+    return document, text
 
 
 def _drawn(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

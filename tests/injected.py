@@ -54,7 +54,7 @@ def main_cause(one):
         for segment in diagnose(one.detection, one.truth).segments
         if segment.columns[1] >= first - 5 and segment.columns[0] <= last + 5
     ]
-    return max(segments, key=lambda segment: segment.mean_error * segment.length)
+    return max(segments, key=lambda segment: segment.total_error)
 
 
 def inject(cause, seed, first_scene):

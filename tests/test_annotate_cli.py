@@ -233,6 +233,52 @@ def test_doubtful_truths_are_opened_where_they_are_doubtful(folder, tmp_path, ca
     file.write_text(json.dumps({**document, "photos": photos[1:]}))
     assert run("open", folder, "--from-diagnosis", file) == 2
     assert "doubts no truth of a photo" in capsys.readouterr().err
-    file.write_text("{}")
+
+
+def diagnosis_with(columns, name="hill-1", version=1):
+    """A diagnosis that doubts a truth, as text."""
+    return (
+        f'{{"format": "skyline-diagnosis", "version": {version}, "photos": [{{"name": "{name}", '
+        f'"segments": [{{"cause": "truth doubtful", "columns": {columns}}}]}}]}}'
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("{}", "holds no diagnosis"),
+        ("[]", "holds no diagnosis"),
+        ("{", "holds no diagnosis: it is not JSON"),
+        ("\udc80", "holds no diagnosis: it is not JSON"),
+        ("[" * 100_000, "holds no diagnosis: it is not JSON"),
+        (diagnosis_with("[1e400, 5]"), "holds a diagnosis that is damaged"),
+        (diagnosis_with('["a", "b"]'), "holds a diagnosis that is damaged"),
+        (diagnosis_with('{"a": 1}'), "holds a diagnosis that is damaged"),
+        (diagnosis_with("[]"), "holds a diagnosis that is damaged"),
+        ('{"format": "skyline-diagnosis", "version": 1}', "holds a diagnosis that is damaged"),
+        (
+            diagnosis_with("[1, 2]", version=99),
+            "is not a diagnosis of version 1, the only one known",
+        ),
+    ],
+)
+def test_a_broken_diagnosis_is_one_plain_sentence(text, said, folder, tmp_path, capsys):
+    file = tmp_path / "diagnosis.json"
+    file.write_text(text, errors="surrogateescape")
     assert run("open", folder, "--from-diagnosis", file) == 2
-    assert "holds no diagnosis" in capsys.readouterr().err
+    assert capsys.readouterr().err == f"skyline-annotate: {file} {said}.\n"
+
+
+def test_a_diagnosis_that_is_not_there_is_said_not_to_exist(folder, tmp_path, capsys):
+    file = tmp_path / "diagnosis.json"
+    assert run("open", folder, "--from-diagnosis", file) == 2
+    assert capsys.readouterr().err == f"skyline-annotate: {file} does not exist.\n"
+
+
+def test_doubtful_columns_beyond_the_rims_are_the_rims(folder, tmp_path):
+    file = tmp_path / "diagnosis.json"
+    for columns, opened in (("[-50, -10]", 0), ("[5000, 6000]", 69)):
+        file.write_text(diagnosis_with(columns))
+        bench = Workbench(Store(folder), DETECTOR, Assignment("ann"), read_doubts(file))
+        assert list(bench.doubts.values()) == [opened]
+        bench.close()

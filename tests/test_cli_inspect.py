@@ -51,11 +51,22 @@ def test_a_photo_is_kept_in_full(say, hills, tmp_path):
     status, out, err = say("inspect", photo, "--truth", truth, "--save", "out/a.rrd")
     assert (status, err) == (0, "")
     assert "A_err 2.00 px" in out
+    assert out.endswith("Right: no column is off by more than 4 px.\n")
     verify(tmp_path / "out" / "a.rrd")
     read = Read(tmp_path / "out" / "a.rrd")
     assert np.array_equal(read.picture(entities.PHOTO), sv.read_photo(photo))
     assert {"Filter bank", "Columns"} <= read.view_names
     assert entities.BANK_CHOSEN in read.entities()
+
+
+def test_a_truth_that_is_visible_nowhere_is_not_diagnosed(say, hills):
+    photo = hills / "images" / "h3.png"
+    width = sv.read_photo(photo).shape[1]
+    sv.Skyline(np.zeros(width), np.zeros(width, bool)).write_csv(hills / "nowhere.csv")
+    words = ("--truth", hills / "nowhere.csv", "--headless")
+    status, out, err = say("inspect", photo, *words)
+    assert (status, err) == (0, "")
+    assert "Right" not in out
 
 
 def test_a_data_set_is_one_recording_with_a_step_a_photo(say, hills, tmp_path):

@@ -38,7 +38,7 @@ class Diagnose:
     """Folder of a data set with truths, in a published layout or plain."""
 
     photo: str = ""
-    """Name of one photo, to print its diagnosis in full."""
+    """Name of one photo, to print its diagnosis in full; --out gets NAME.json and NAME.md then."""
 
     tolerance: float = 0.0
     """Error up to which a column is right, in pixels; 0 takes 4, more for large photos."""
@@ -73,11 +73,11 @@ class Diagnose:
     def run(self) -> int:
         """Diagnose all photos that have a truth; return the exit status."""
         from skyline_viz.datasets import open_dataset  # noqa: PLC0415
+        from skyline_viz.diagnosis import checked_tolerance  # noqa: PLC0415
 
         if self.folds and self.bank:
             raise UsageError("--folds trains filter banks of its own; leave out --bank.")
-        if self.tolerance < 0:
-            raise UsageError(f"a tolerance is 0 px or more, not {self.tolerance:g}.")
+        checked_tolerance(self.tolerance)
         dataset = open_dataset(self.dataset)
         items = with_truth(dataset)
         if self.photo and self.photo not in {item.name for item in items}:
@@ -129,18 +129,26 @@ class Diagnose:
     def _tell(self, name: str, found: list[Diagnosed]) -> None:
         from skyline_viz import diagnosis_report as report  # noqa: PLC0415
 
-        if self.out:
-            report.write_csv(self.out / "segments.csv", found)
-            report.write_json(self.out / "diagnosis.json", name, found)
         if self.photo:
             for one in found:
                 print(report.in_full(one))
-        elif found:
-            print(f"{name}: {counted(len(found), 'photo')}")
-            print(report.table(found))
-            if not self.no_remedies:
-                print(report.remedies_table(found))
-        if self.out:
-            print(f"segments.csv and diagnosis.json in {self.out}")
+                if self.out:
+                    document, text = report.write_photo(self.out, name, one)
+                    print(f"{document.name} and {text.name} in {document.parent}")
+        else:
+            self._tell_all(name, found)
         if not found:
             say("nothing was diagnosed.")
+
+    def _tell_all(self, name: str, found: list[Diagnosed]) -> None:
+        from skyline_viz import diagnosis_report as report  # noqa: PLC0415
+
+        if found:
+            print(f"{name}: {counted(len(found), 'photo')}")
+            print(report.table(found))
+            if helps := report.remedies_table(found):
+                print(helps)
+        if self.out:
+            report.write_csv(self.out / "segments.csv", found)
+            report.write_json(self.out / "diagnosis.json", name, found)
+            print(f"segments.csv and diagnosis.json in {self.out}")

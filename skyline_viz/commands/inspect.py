@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from skyline_viz.blueprints import Contents, MethodContents
     from skyline_viz.detection import Detection
     from skyline_viz.detector import Detector, FilterDetection
+    from skyline_viz.diagnosis import Diagnosis
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.methods.protocol import Method
     from skyline_viz.recording import Fidelity
@@ -225,9 +226,9 @@ class Inspect:
             second = using.other.detect(photo)
             log_comparison(recording, found, second, truth, str(self.compare), fidelity)
         methods = _log_methods(recording, found, using.methods, truth, fidelity)
-        diagnosed = (
-            alone and truth is not None and _log_diagnosis(recording, found, truth, one.name)
-        )
+        diagnosis = None
+        if alone and truth is not None and truth.visible.any():
+            diagnosis = _log_diagnosis(recording, found, truth, one.name)
         if alone:
             recording.disable_timeline("column")
             log_path_bins(recording, found)
@@ -235,12 +236,14 @@ class Inspect:
             _log_sweeps(recording, sweeps, found, truth)
         error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
         print(f"{one.name}{error}  margin {verdict.margin:.3g}")
+        if diagnosis and diagnosis.right:
+            print(diagnosis.said_right)
         height, width = found.edges.shape
         return Contents(
             height,
             width,
             truth=truth is not None,
-            diagnosed=diagnosed,
+            diagnosed=diagnosis is not None and not diagnosis.right,
             bank=fidelity == "full",
             path_bins=alone,
             photos=together,
@@ -320,16 +323,15 @@ class _Nothing(Exception):  # noqa: N818  # no error: there is nothing to write
 
 def _log_diagnosis(
     recording: rr.RecordingStream, found: Detection, truth: Skyline, name: str
-) -> bool:
-    """Log why a detection went wrong; return whether it did."""
+) -> Diagnosis:
+    """Find out why a detection went wrong, and log it where it did."""
     from skyline_viz.diagnosis import diagnose  # noqa: PLC0415
     from skyline_viz.diagnosis_recording import log_diagnosis  # noqa: PLC0415
 
     diagnosis = diagnose(found, truth)
-    if diagnosis.right:
-        return False
-    log_diagnosis(recording, diagnosis, found, truth, name)
-    return True
+    if not diagnosis.right:
+        log_diagnosis(recording, diagnosis, found, truth, name)
+    return diagnosis
 
 
 def _log_methods(
