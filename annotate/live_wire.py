@@ -52,6 +52,7 @@ class LiveWire:
 
     >>> photo = np.full((40, 60, 3), 200, np.uint8)
     >>> photo[25:] = 60
+    >>> from skyline_viz import Detector
     >>> wire = LiveWire(photo, Detector())
     >>> wire.skyline.rows[:3]
     array([25., 25., 25.], dtype=float32)

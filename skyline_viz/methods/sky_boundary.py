@@ -62,7 +62,7 @@ def boundary_scores(sky: F32, scale: float = SCALE) -> F32:
         sky: ``(H, W)`` probability that a pixel is sky.
         scale: Wrong pixels that lower a score to 1/e, at `ROWS` rows.
 
-    >>> boundary_scores(np.array([[0.9], [0.8], [0.1]], np.float32)).argmax()
+    >>> int(boundary_scores(np.array([[0.9], [0.8], [0.1]], np.float32)).argmax())
     2
     """
     # pixels above that are terrain, and pixels from here on that are sky, up to a constant
