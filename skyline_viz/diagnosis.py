@@ -39,7 +39,8 @@ TOLERANCE = 4.0
 """Error up to which a column is right, in pixels at 519 rows."""
 
 _GAP = 5  # right columns that do not end a segment
-_MOST_LINES = 8  # that are taken away until the truth is expected back
+_MOST_LINES = 8  # that are taken away until the truth is expected back,
+_MOST_SEARCHES = 64  # and as many plain searches at most that this may take as long as
 
 
 @dataclass(frozen=True)
@@ -254,9 +255,10 @@ class _Trials:
     def take_lines(self, *changes: Change) -> Trial:
         """Take competing lines away, one after another, until the truth comes back, or enough."""
         case = self.case
+        most = max(min(_MOST_LINES, int(_MOST_SEARCHES / self._dearer(changes))), 1)
         lines = [case.path_rows]
         found = case.search(changes, *self.reach, lines)
-        while case.repaired(*found, *self.run) < REPAIRED and len(lines) < _MOST_LINES:
+        while case.repaired(*found, *self.run) < REPAIRED and len(lines) < most:
             lines.append(case.whole(*found))
             found = case.search(changes, *self.reach, lines)
         touched = np.zeros(case.truth.width, np.bool_)
@@ -270,6 +272,13 @@ class _Trials:
         if share >= REPAIRED:
             self.line = found
         return trial
+
+    def _dearer(self, changes: Sequence[Change]) -> float:
+        """How many plain searches one takes as long as in which the truth's steps are allowed."""
+        delta = max(self.case.detection.delta, 1)
+        part = slice(self.reach[0], self.reach[1] + 1)
+        allowed = np.maximum(self.case.steps[part], delta)
+        return float(allowed.mean()) / delta if "too steep" in changes else 1.0
 
     def against(self, cause: Cause) -> float:
         """The largest share that came back without a cause being made right."""

@@ -51,7 +51,7 @@ def test_a_photo_is_kept_in_full(say, hills, tmp_path):
     status, out, err = say("inspect", photo, "--truth", truth, "--save", "out/a.rrd")
     assert (status, err) == (0, "")
     assert "A_err 2.00 px" in out
-    assert out.endswith("Right: no column is off by more than 4 px.\n")
+    assert "\nRight: no column is off by more than 4 px.\n" in out
     verify(tmp_path / "out" / "a.rrd")
     read = Read(tmp_path / "out" / "a.rrd")
     assert np.array_equal(read.picture(entities.PHOTO), sv.read_photo(photo))

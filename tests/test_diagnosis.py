@@ -404,3 +404,11 @@ def test_the_report_begins_with_the_largest_total_error(flat):
 def test_stacked_costs_do_not_droop_at_the_rims():
     np.testing.assert_allclose(smooth(np.ones(30)), 1)
     assert len(smooth(np.arange(5.0))) == 5
+
+
+def test_a_truth_that_climbs_wildly_gets_fewer_tries(flat):
+    rows = np.random.default_rng(0).integers(0, 120, 300)
+    (segment, *_) = diagnose(flat, Skyline(rows=rows)).by_error
+    (steep,) = (one for one in segment.trials if {"cheaper path", "too steep"} <= set(one.changes))
+    (plain,) = (one for one in segment.trials if one.changes == ("cheaper path",))
+    assert steep.lines < plain.lines == 8
