@@ -46,8 +46,12 @@ from skyline_viz.methods.score_images import (
 CHANNELS = (8, 16, 32)
 """Outputs of the first, second and third convolution."""
 
-EPOCHS = 3
-"""How often each sample is learned from."""
+EPOCHS = 8
+"""How often each sample is learned from. In two-fold cross-validation over the Web set, the median
+error of the score alone is 0.46 to 0.73 px with 3 (three seeds), 0.47 and 0.56 px with 8 (two). One
+photo has a second line as likely as the skyline: it is missed as a whole with one seed of the three
+and one of the two, for a mean error above 3 px instead of below 1, but not by the fusions with the
+gradient and with Canny edges."""
 
 BATCH = 256
 """Samples that are learned from together."""

@@ -84,10 +84,11 @@ class DenseScores(LearnedMethod):
     """Nodal cost of the others, for which the paper has an infinite one."""
 
     w2: float = 0.9
-    """Weight of the score against ``G_r``, in [0, 1]."""
+    """Weight of the score against ``G_r``, in [0, 1]; at 0.8 and below a support vector machine
+    misses a whole photo, mean error 4.4 against 0.8 px."""
 
-    w3: float = 0.7
-    """Weight of the score against edges, in [0, 1]."""
+    w3: float = 0.3
+    """Weight of the score against edges, in [0, 1]; from 0.3 to 0.9 it makes little difference."""
 
     @property
     def fusion(self) -> Fusion:
