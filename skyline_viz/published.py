@@ -21,7 +21,7 @@ class Errors:
 
 TITLES = {
     "default": "Ours, default",
-    "paper": "Ours, published settings",
+    "paper": "Proposed",
     "edges": "Edges only",
     "gradient": "G_r",
     "sift-hog-edges": "SIFT+HOG edges",
@@ -120,7 +120,7 @@ TABLE_5: dict[str, tuple[float, Errors]] = {
     "SegNet-CH1": (0.8437, Errors(114.893, 99.021)),
     "FCN8s-SiftFlow-s-CH1": (0.9486, Errors(37.947, 69.435)),
     "FCN8s-Pascal-CH1": (0.9432, Errors(41.596, 71.707)),
-    "Ours, published settings": (0.8652, Errors(105.712, 164.224)),
+    "Proposed": (0.8652, Errors(105.712, 164.224)),
 }
 """Segmentation accuracy and A_err over 2895 photos of GeoPose3K."""
 
@@ -130,6 +130,6 @@ TABLE_6: dict[str, tuple[float, float]] = {
     "FCN32s-Pascal": (519.4, 16.16),
     "FCN8s-SiftFlow": (514.0, 15.65),
     "Horizon-DCSI": (0.0022, 20.45),
-    "Ours, published settings": (0.057, 10.59),
+    "Proposed": (0.057, 10.59),
 }
 """Size of the model in megabytes, and seconds for one photo."""

@@ -179,7 +179,7 @@ def table_5(measured: Mapping[str, Compared], folds: int) -> Table:
                     )
                 )
     for name, (accuracy, errors) in published.TABLE_5.items():
-        learned = "CH1" if "CH1" in name or name.startswith("Ours") else "scene parsing"
+        learned = "CH1" if "CH1" in name or name == "Proposed" else "scene parsing"
         row = (name, "GeoPose3K (2895), published", learned, f"{accuracy:.4f}")
         rows.append((*row, errors.mean, errors.standard_deviation))
     return Table(
