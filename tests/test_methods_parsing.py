@@ -242,7 +242,7 @@ def test_a_missing_package_is_named_with_its_extra(monkeypatch, missing):
     with pytest.raises(MethodError) as caught:
         Fcn8s().fit(rendered([1]))
     assert str(caught.value) == (
-        f"fcn-8s needs {missing} to learn; install it with: pip install 'skyline-viz[deep]'"
+        f"fcn-8s needs {missing} to be trained; install it with: pip install 'skyline-viz[deep]'"
     )
 
 

@@ -14,7 +14,7 @@ def needed(module: str, extra: Literal["methods", "deep"], method: str) -> Any: 
     """A module of a package that comes with an extra.
 
     Args:
-        module: What is imported, say ``sklearn.svm``.
+        module: What is imported, say ``sklearn.svm``, or a module of ours that imports it.
         extra: The extra that its package comes with.
         method: Name of the method that needs it.
 
@@ -24,7 +24,7 @@ def needed(module: str, extra: Literal["methods", "deep"], method: str) -> Any: 
     try:
         return import_module(module)
     except ImportError as error:
-        package = module.split(".", maxsplit=1)[0]
+        package = (error.name or module).split(".", maxsplit=1)[0]
         raise MethodError(
             f"{method} needs {_INSTALLED_AS.get(package, package)} to be trained; "
             f"install it with: pip install 'skyline-viz[{extra}]'"

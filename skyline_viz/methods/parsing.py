@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -23,8 +22,9 @@ import numpy as np
 from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.detection import Detection, timed
+from skyline_viz.methods.extras import needed
 from skyline_viz.methods.onnx_files import Network, normalised, padded
-from skyline_viz.methods.protocol import LearnedMethod, MethodError, Model, shown_to_learners
+from skyline_viz.methods.protocol import LearnedMethod, Model, shown_to_learners
 from skyline_viz.methods.sky_boundary import detect_boundary
 from skyline_viz.methods.sky_network import MEAN, STD, enlarged, sigmoid
 
@@ -64,7 +64,8 @@ class SceneParsing(LearnedMethod):
                 "width is above 0, epochs is 1 or more and columns is 32 or more, not "
                 f"{self.width:g}, {self.epochs} and {self.columns}"
             )
-        training = needing_deep("skyline_viz.methods.parsing_training", self.name)
+        needed("onnx", "deep", self.name)  # which PyTorch asks for only after hours, to export
+        training = needed("skyline_viz.methods.parsing_training", "deep", self.name)
         network: bytes = training.train_network(
             shown_to_learners(items),
             self.architecture,
@@ -149,19 +150,3 @@ def to_columns(photo: U8, columns: int) -> U8:
     size = (columns, max(round(height * columns / width), 1))
     smaller = cv2.INTER_AREA if columns < width else cv2.INTER_LINEAR
     return np.asarray(cv2.resize(photo, size, interpolation=smaller), np.uint8)
-
-
-def needing_deep(module: str, method: str) -> Any:  # noqa: ANN401
-    """Import a module that needs the packages of the extra ``deep``.
-
-    Raises:
-        MethodError: One of them is missing.
-    """
-    try:
-        import_module("onnx")  # which PyTorch asks for only after hours, when it exports
-        return import_module(module)
-    except ImportError as error:
-        raise MethodError(
-            f"{method} needs {error.name} to learn; install it with: "
-            "pip install 'skyline-viz[deep]'"
-        ) from error
