@@ -86,7 +86,7 @@ def test_a_filter_bank_is_a_method(tmp_path):
 
 
 def test_a_method_comes_back_from_its_file(tmp_path):
-    method = EdgesOnly(delta=12.0)
+    method = EdgesOnly(delta=12)
     save_method(method, tmp_path / "m.npz", Trained("hills", 4, 0))
     again = load_method(tmp_path / "m.npz")
     assert again == method
