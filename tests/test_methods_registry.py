@@ -180,6 +180,10 @@ def test_commands_compare_train_and_detect(folder, tmp_path, capsys):
     assert main(["detect", photo, "--method", "edges", "gradient"]) == 2
     assert "one method can be used here, and 2 are named" in capsys.readouterr().err
     assert main(["evaluate", str(folder), "--method", "edges", "edges"]) == 2
+    capsys.readouterr()
+    for command in ("detect", "evaluate", "diagnose", "gallery"):
+        assert main([command, str(folder), "--method", "svm-dcsi"]) == 2
+        assert capsys.readouterr().err.count("svm-dcsi has learned nothing yet") == 1
     assert main(["train", str(folder), "--method", "edges", "--out", f"{out}/m.npz"]) == 2
     assert "the method edges has nothing to learn" in capsys.readouterr().err
 

@@ -98,7 +98,8 @@ class Diagnose:
         if self.methods.given:
             from skyline_viz.methods.testing import fold_method  # noqa: PLC0415
 
-            return fold_method(items, self.methods.one(), self.folds, self.seed, self.workers)
+            method = self.methods.one(to_train=bool(self.folds))
+            return fold_method(items, method, self.folds, self.seed, self.workers)
         if not self.folds:
             detector = make_detector(self.bank, self.config)
             return {item.name: detector for item in items}, []

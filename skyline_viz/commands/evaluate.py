@@ -100,7 +100,7 @@ class Evaluate:
 
         if self.bank:
             raise UsageError("--bank is for the detector alone; name the file as a --method.")
-        methods = self.methods.chosen()
+        methods = self.methods.chosen(to_train=bool(self.folds))
         found = compare_methods(
             items, methods, folds=self.folds, seed=self.seed, workers=self.workers
         )

@@ -147,13 +147,13 @@ class Inspect:
     def _methods(self) -> list[Method]:
         from skyline_viz.method_recording import COLOURS  # noqa: PLC0415
 
-        methods = self.methods.chosen()
-        if len(methods) > len(COLOURS):
+        named = len(self.methods.method) + (self.methods.network is not None)
+        if named > len(COLOURS):
             raise UsageError(
                 f"{len(COLOURS)} methods at most can be told apart on a photo, "
-                f"and {len(methods)} are named."
+                f"and {named} are named."
             )
-        return methods
+        return self.methods.chosen()
 
     @contextmanager
     def _folder(self) -> Iterator[Path]:

@@ -35,13 +35,17 @@ class Methods:
         """Whether any was named."""
         return bool(self.method or self.network)
 
-    def chosen(self) -> list[Method]:
+    def chosen(self, *, to_train: bool = False) -> list[Method]:
         """The methods, in the order named.
+
+        Args:
+            to_train: Whether those that learn are going to be trained.
 
         Raises:
             UsageError: One is named twice.
-            MethodError: There is none of that name, or its file is damaged.
+            MethodError: There is none of that name, its file is damaged, or it was not trained.
         """
+        from skyline_viz.methods.protocol import LearnedMethod  # noqa: PLC0415
         from skyline_viz.methods.registry import find_method  # noqa: PLC0415
 
         found = [find_method(text) for text in self.method]
@@ -53,20 +57,24 @@ class Methods:
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:
             raise UsageError(f"the method {twice[0]} is named twice.")
+        for one in found:
+            if isinstance(one, LearnedMethod) and not to_train:
+                one.require_trained()
         return found
 
-    def one(self, instead_of: Sequence[str] = ()) -> Method:
+    def one(self, instead_of: Sequence[str] = (), *, to_train: bool = False) -> Method:
         """The only method.
 
         Args:
             instead_of: Options that were given and choose another detector.
+            to_train: See `chosen`.
 
         Raises:
             UsageError: There are several, or one of these options was given, too.
         """
         if instead_of:
             raise UsageError(f"--method brings its own settings; leave out {instead_of[0]}.")
-        found = self.chosen()
+        found = self.chosen(to_train=to_train)
         if len(found) != 1:
             raise UsageError(f"one method can be used here, and {len(found)} are named.")
         return found[0]

@@ -62,7 +62,9 @@ class Tables:
             raise UsageError(f"a cross-validation has 2 folds or more, not {self.folds}.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
-        methods = self.methods.chosen() or [make_method(name) for name in get_args(MethodName)]
+        methods = self.methods.chosen(to_train=True) or [
+            make_method(name) for name in get_args(MethodName)
+        ]
         sets = {}
         for folder in self.datasets:
             dataset = open_dataset(folder)

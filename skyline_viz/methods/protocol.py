@@ -101,12 +101,22 @@ class LearnedMethod:
         Raises:
             MethodError: The method has not been trained.
         """
+        self.require_trained()
         if name not in self.model:
+            raise MethodError(f"{self.name} is damaged: its {name} is missing.")
+        return self.model[name]
+
+    def require_trained(self) -> None:
+        """Refuse to go on without having learned.
+
+        Raises:
+            MethodError: The method has not been trained.
+        """
+        if not self.model:
             raise MethodError(
                 f"{self.name} has learned nothing yet; train it with: "
                 f"skyline-viz train DATASET --method {self.name} --out FILE"
             )
-        return self.model[name]
 
 
 def shown_to_learners(items: Sequence[DatasetItem]) -> list[tuple[U8, Skyline]]:
