@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from skyline_viz.batch import Failure
 from skyline_viz.cli import main
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation import cross_validate
+from skyline_viz.methods.descriptors import LENGTH
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.methods.protocol import Learner, MethodError
 from skyline_viz.methods.registry import (
@@ -24,6 +26,7 @@ from skyline_viz.methods.registry import (
     model_bytes,
     save_method,
 )
+from skyline_viz.methods.score_images import PATCH
 from skyline_viz.methods.testing import compare_methods
 from skyline_viz.methods.timing import time_methods
 from skyline_viz.rendering import render
@@ -196,3 +199,42 @@ def test_the_command_writes_tables(folder, tmp_path, capsys):
     assert r"\begin{tabular}" in (tmp_path / "tables.tex").read_text()
     assert (tmp_path / "histogram-paper.png").exists()
     assert main(["tables", str(folder), "--folds", "1", "--out", str(tmp_path)]) == 2
+
+
+def altered(method, path, **changes):
+    """A file of a method with other arrays."""
+    model = {name: array for name, array in (method.model | changes).items() if array is not None}
+    save_method(replace(method, model=model), path, Trained())
+    return path
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"weights": np.zeros(3)}, r"its weights has the shape \(3,\)"),
+        ({"weights": None}, "its weights is missing"),
+        ({"bias": np.array([np.nan])}, "its bias holds what is no finite number"),
+        ({"bias": np.array(["x"])}, "its bias holds what is no finite number"),
+    ],
+)
+@pytest.mark.parametrize("name", ["sift-hog-edges", "svm-dcsi"])
+def test_compiled_loops_never_see_a_model_of_another_shape(tmp_path, name, changes, says):
+    side = {"sift-hog-edges": (LENGTH,), "svm-dcsi": (PATCH, PATCH)}[name]
+    model = {"weights": np.zeros(side), "bias": np.zeros(1), "logistic": np.ones(2)}
+    method = replace(make_method(name), model=model)
+    save_method(method, tmp_path / "good.npz", Trained())
+    assert load_method(tmp_path / "good.npz").name == name
+    with pytest.raises(MethodError, match=says):
+        load_method(altered(method, tmp_path / "bad.npz", **changes))
+
+
+def test_settings_of_another_kind_are_refused(tmp_path):
+    save_method(EdgesOnly(delta="x"), tmp_path / "m.npz", Trained())
+    with pytest.raises(MethodError, match="damaged: its delta is 'x'"):
+        load_method(tmp_path / "m.npz")
+
+
+def test_a_network_that_is_damaged_is_one_sentence(tmp_path):
+    method = replace(make_method("cnn-dcsi"), model={"onnx": np.zeros(50, np.uint8)})
+    with pytest.raises(MethodError, match="the network of cnn-dcsi is damaged"):
+        method.detect(render("clear", 1, *SIZE).photo)

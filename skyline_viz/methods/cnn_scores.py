@@ -32,7 +32,7 @@ from skyline_viz.arrays import F32, U8, Bool
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.edges import to_grey
 from skyline_viz.methods.extras import needed
-from skyline_viz.methods.protocol import Model, shown_to_learners
+from skyline_viz.methods.protocol import MethodError, Model, shown_to_learners
 from skyline_viz.methods.score_images import (
     BEFORE,
     PATCH,
@@ -93,10 +93,17 @@ class CnnScores(DenseScores):
         weights = train_network(torch, samples, labels, seed)
         return {"onnx": np.frombuffer(onnx_graph(onnx, weights), np.uint8)}
 
+    def model_shapes(self) -> Mapping[str, tuple[int | None, ...]]:
+        """See `LearnedMethod.model_shapes`."""
+        return {"onnx": (None,)}
+
     def dense_score(self, photo: U8) -> F32:
         """See `DenseScores.dense_score`."""
         # a network of its own, for OpenCV's are not to be shared between threads
-        network = cv2.dnn.readNetFromONNX(self.part("onnx").astype(np.uint8))
+        try:
+            network = cv2.dnn.readNetFromONNX(self.part("onnx").astype(np.uint8))
+        except cv2.error as error:
+            raise MethodError(f"the network of {self.name} is damaged.") from error
         image = np.pad(locally_normalised(photo), (BEFORE, PATCH - 1 - BEFORE), mode="edge")
         strips = []
         for top in range(0, len(photo), STRIP):

@@ -7,7 +7,7 @@ deviation, so the whole score image takes no longer than a few blurs.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -21,6 +21,7 @@ from skyline_viz.methods.protocol import Model, shown_to_learners
 from skyline_viz.methods.score_images import (
     BEFORE,
     LEAST_DEVIATION,
+    PATCH,
     DenseScores,
     draw_samples,
     logistic,
@@ -70,6 +71,10 @@ class SvmScores(DenseScores):
             "bias": machine.intercept_.astype(np.float64),
             "logistic": np.array([platt.coef_[0, 0], platt.intercept_[0]]),
         }
+
+    def model_shapes(self) -> Mapping[str, tuple[int | None, ...]]:
+        """See `LearnedMethod.model_shapes`."""
+        return {"weights": (PATCH, PATCH), "bias": (1,), "logistic": (2,)}
 
     def dense_score(self, photo: U8) -> F32:
         """See `DenseScores.dense_score`."""

@@ -10,7 +10,7 @@ in the model, which OpenCV runs: detecting needs nothing further.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -79,6 +79,10 @@ class SceneParsing(LearnedMethod):
             "network": np.frombuffer(network, np.uint8),
             "columns": np.array(self.columns, np.int32),
         }
+
+    def model_shapes(self) -> Mapping[str, tuple[int | None, ...]]:
+        """See `LearnedMethod.model_shapes`."""
+        return {"network": (None,), "columns": ()}
 
     def detect(self, photo: U8) -> Detection:
         """Find the skyline of a photo ``(H, W, 3)`` uint8 RGB."""

@@ -95,6 +95,30 @@ class LearnedMethod:
         """See `Method.detect`."""
         raise NotImplementedError
 
+    def model_shapes(self) -> Mapping[str, tuple[int | None, ...]]:
+        """Shape of each array of the model, None where any length will do."""
+        return {}
+
+    def check_model(self) -> None:
+        """Refuse a model whose arrays are missing, of another shape, or not finite.
+
+        Compiled loops trust these shapes.
+
+        Raises:
+            ValueError: The message names the array.
+        """
+        for name, wanted in self.model_shapes().items():
+            array = self.model.get(name)
+            if array is None:
+                raise ValueError(f"its {name} is missing")
+            fits = len(array.shape) == len(wanted) and all(
+                want in (None, have) for want, have in zip(wanted, array.shape, strict=True)
+            )
+            if not fits:
+                raise ValueError(f"its {name} has the shape {array.shape}")
+            if array.dtype.kind not in "uif" or not np.isfinite(array).all():
+                raise ValueError(f"its {name} holds what is no finite number")
+
     def part(self, name: str) -> npt.NDArray[np.generic]:
         """An array of the model.
 

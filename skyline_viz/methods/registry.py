@@ -135,9 +135,25 @@ def load_method(path: Path) -> Method:
         made: Any = make_method(str(header["name"]))
         model = {"model": arrays} if isinstance(made, LearnedMethod) else {}
         loaded: Method = type(made)(name=header["name"], **model, **header["settings"])
-    except (KeyError, TypeError) as error:
+        if isinstance(loaded, LearnedMethod):
+            loaded.check_model()
+        _check_settings(loaded, made)
+    except (KeyError, TypeError, ValueError) as error:
         raise MethodError(f"{path} is damaged: {error}.") from error
     return loaded
+
+
+def _check_settings(loaded: Method, made: Method) -> None:
+    """Refuse settings of other kinds than a new method of that name has.
+
+    Raises:
+        TypeError: The message names the setting.
+    """
+    for one in fields(made):  # type: ignore[arg-type]  # all methods are dataclasses
+        value, usual = getattr(loaded, one.name), getattr(made, one.name)
+        number = isinstance(usual, float) and isinstance(value, int)
+        if not (number or usual is None or isinstance(value, type(usual)) or one.name == "model"):
+            raise TypeError(f"its {one.name} is {value!r}")
 
 
 def _network(settings: dict[str, Any]) -> Method:

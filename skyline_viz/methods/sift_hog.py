@@ -34,7 +34,7 @@ from __future__ import annotations
 
 import importlib
 import zlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -115,6 +115,10 @@ class SiftHog(LearnedMethod):
         parts = [samples(photo, truth, seed) for photo, truth in shown_to_learners(items)]
         weights, bias = train_svm(*(np.concatenate(part) for part in zip(*parts, strict=True)))
         return {"weights": weights, "bias": bias}
+
+    def model_shapes(self) -> Mapping[str, tuple[int | None, ...]]:
+        """See `LearnedMethod.model_shapes`."""
+        return {"weights": (LENGTH,), "bias": (1,)}
 
     def detect(self, photo: U8) -> Detection:
         """Find the skyline of a photo ``(H, W, 3)`` uint8 RGB; see `protocol.Method.detect`."""
