@@ -10,7 +10,7 @@ from skyline_viz.causes import CAUSES
 from skyline_viz.datasets import open_dataset
 from skyline_viz.detector import Detector
 from skyline_viz.diagnosis import diagnose
-from tests.injected import FAMILIAR, MAKERS, UNSEEN, Injected, cases, main_cause
+from tests.injected import CONSULTED, FAMILIAR, MAKERS, UNSEEN, Injected, cases, main_cause
 
 EACH = 40
 """Cases of each cause."""
@@ -23,7 +23,8 @@ def confusion(each: int = EACH) -> str:
     return "\n\n".join(
         [
             "## Diagnoses of failures of a known cause, put into rendered scenes",
-            _matrix(UNSEEN, each, "Scenes that nothing was decided by"),
+            _matrix(UNSEEN, each, "Scenes that were first used when the rules stood"),
+            _matrix(CONSULTED, each, "Scenes by which the rules were checked while being made"),
             _matrix(FAMILIAR, each, "The scenes by which the rules were made"),
             _dearest(),
         ]

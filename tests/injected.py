@@ -16,7 +16,9 @@ from skyline_viz.skyline import Skyline
 KINDS = ("clear", "desert", "cloudy", "rover")
 SIZE = (640, 360)
 SCENES = 40  # that are varied
-FAMILIAR, UNSEEN = 1000, 7000  # first scene of those that the rules were made with, and of others
+FAMILIAR = 1000  # first of the scenes that the rules were made with
+CONSULTED = 7000  # of those by which the rules were checked while they were being made
+UNSEEN = 31000  # of those that were first used when the rules stood
 TRIES = 60  # for each case that is asked for
 DETECTOR = Detector()
 BY_SCORE = replace(DETECTOR.config, v=0.95, clear_sky=0.0, terrain_weight=1.0)

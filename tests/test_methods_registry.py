@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -238,3 +239,41 @@ def test_a_network_that_is_damaged_is_one_sentence(tmp_path):
     method = replace(make_method("cnn-dcsi"), model={"onnx": np.zeros(50, np.uint8)})
     with pytest.raises(MethodError, match="the network of cnn-dcsi is damaged"):
         method.detect(render("clear", 1, *SIZE).photo)
+
+
+def test_tables_outlive_a_photo_that_is_damaged(folder, tmp_path, capsys):
+    damaged = tmp_path / "damaged"
+    shutil.copytree(folder, damaged)
+    (damaged / "images" / "hill-0.png").write_bytes(b"no photo")
+    words = ["tables", str(damaged), "--method", "paper", "edges", "--out", str(tmp_path / "out")]
+    assert main(words) == 1
+    assert "hill-0" in capsys.readouterr().err
+    assert (tmp_path / "out" / "tables.md").read_text().count("## Table") == 6
+    lines = (tmp_path / "out" / "methods.csv").read_text().splitlines()
+    assert len(lines) == 1 + 2 * 3
+
+
+def test_options_that_would_be_ignored_are_refused(folder, tmp_path, capsys):
+    out = str(tmp_path / "m.npz")
+    train = ["train", str(folder), "--out", out, "--method"]
+    for words, says in (
+        ([*train, "paper"], "trained by --preset paper"),
+        ([*train, "default", "--pretrained", "x.pth"], "--pretrained is for FCNs"),
+        ([*train, "svm-dcsi", "--preset", "paper"], "are for our filter bank"),
+        (["evaluate", str(folder), "--method", "edges", "--preset", "paper"], "leave out"),
+        (["detect", str(folder), "--method", "edges", "--config.delta", "2"], "leave out"),
+        (["gallery", str(folder), "--method", "edges", "--bank", "x.npz"], "leave out"),
+    ):
+        assert main(words) == 2, words
+        assert says in capsys.readouterr().err
+    assert not (tmp_path / "m.npz").exists()
+
+
+def test_a_method_is_not_tested_on_what_it_learned_from_without_a_word(folder, tmp_path, capsys):
+    file = str(tmp_path / "svm.npz")
+    assert main(["train", str(folder), "--method", "svm-dcsi", "--out", file]) == 0
+    capsys.readouterr()
+    assert main(["evaluate", str(folder), "--method", file]) == 0
+    assert "was trained on hills, so this is no test" in capsys.readouterr().err
+    assert main(["evaluate", str(folder), "--method", file, "--folds", "2"]) == 2
+    assert "would be trained anew" in capsys.readouterr().err

@@ -113,7 +113,7 @@ class Open:
         doubts = read_doubts(self.from_diagnosis) if self.from_diagnosis else None
         detector: Method
         if self.methods.given:
-            detector = self.methods.one(["--bank"] if self.bank else [])
+            detector = self.methods.one(self.bank, self.config)
         else:
             detector = make_detector(self.bank, self.config)
         bench = Workbench(Store(self.folder), detector, who, doubts)

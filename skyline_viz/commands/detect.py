@@ -17,7 +17,6 @@ from skyline_viz.commands.settings import BankFile, Folder, Preset, Switch, make
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
-    from skyline_viz.detector import Detector
     from skyline_viz.methods.protocol import Method
 
 
@@ -64,7 +63,7 @@ class Detect:
         if not self.photos:
             raise UsageError("which photos? Name at least one photo or folder.")
         inputs = collect(self.photos)
-        detector = self.methods.one() if self.methods.given else self._detector()
+        detector = self._detector()
         output_folder(self.out, (one.item for one in inputs))
         wide = max(len(one.name) for one in inputs)
         failures = []
@@ -79,7 +78,9 @@ class Detect:
             print(f"{counted(written, 'skyline')} in {self.out}")
         return status_after(failures)
 
-    def _detector(self) -> Detector:
+    def _detector(self) -> Method:
+        if self.methods.given:
+            return self.methods.one(self.bank, self.config)
         return make_detector(self.bank, self.config)
 
 

@@ -98,7 +98,7 @@ class Diagnose:
         if self.methods.given:
             from skyline_viz.methods.testing import fold_method  # noqa: PLC0415
 
-            method = self.methods.one(to_train=bool(self.folds))
+            method = self.methods.one(self.bank, self.config, to_train=bool(self.folds))
             return fold_method(items, method, self.folds, self.seed, self.workers)
         if not self.folds:
             detector = make_detector(self.bank, self.config)

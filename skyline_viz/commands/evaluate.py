@@ -96,11 +96,13 @@ class Evaluate:
         from rich.console import Console  # noqa: PLC0415
 
         from skyline_viz import evaluation_report as report  # noqa: PLC0415
+        from skyline_viz.methods.registry import learned_from  # noqa: PLC0415
         from skyline_viz.methods.testing import compare_methods  # noqa: PLC0415
 
-        if self.bank:
-            raise UsageError("--bank is for the detector alone; name the file as a --method.")
-        methods = self.methods.chosen(to_train=bool(self.folds))
+        methods = self.methods.chosen(bank=self.bank, config=self.config, to_train=bool(self.folds))
+        for text in self.methods.method:
+            if not self.folds and learned_from(text) == dataset.name:
+                say(f"{text} was trained on {dataset.name}, so this is no test; see --folds.")
         found = compare_methods(
             items, methods, folds=self.folds, seed=self.seed, workers=self.workers
         )

@@ -109,9 +109,7 @@ class GalleryCommand:
     def _methods(self) -> list[Method]:
         if not self.methods.given:
             return [make_detector(self.bank, self.config)]
-        if self.bank:
-            raise UsageError("--bank is for the detector alone; name the file as a --method.")
-        methods = self.methods.chosen()
+        methods = self.methods.chosen(bank=self.bank, config=self.config)
         if len(methods) > 2:
             raise UsageError(f"a gallery shows one method or two, and {len(methods)} are named.")
         return methods

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import tyro
 
 from skyline_viz.commands.messages import UsageError
+from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
     from skyline_viz.methods.protocol import Method
@@ -35,19 +35,36 @@ class Methods:
         """Whether any was named."""
         return bool(self.method or self.network)
 
-    def chosen(self, *, to_train: bool = False) -> list[Method]:
+    def chosen(
+        self,
+        *,
+        bank: Path | None = None,
+        config: DetectorConfig | None = None,
+        to_train: bool = False,
+    ) -> list[Method]:
         """The methods, in the order named.
 
         Args:
+            bank: A filter bank that was named besides; it would be ignored, so it is refused.
+            config: Settings of our detector; other ones than the default would be ignored, too.
             to_train: Whether those that learn are going to be trained.
 
         Raises:
-            UsageError: One is named twice.
+            UsageError: One is named twice, what was given would be ignored, or a trained method
+                is to be trained.
             MethodError: There is none of that name, its file is damaged, or it was not trained.
         """
         from skyline_viz.methods.protocol import LearnedMethod  # noqa: PLC0415
-        from skyline_viz.methods.registry import find_method  # noqa: PLC0415
+        from skyline_viz.methods.registry import NAMES, find_method  # noqa: PLC0415
 
+        if self.given and bank is not None:
+            raise UsageError("leave out --bank: with --method, its file can be named as a method.")
+        if self.given and config not in (None, DetectorConfig()):
+            raise UsageError("leave out --preset and --config: a --method has settings of its own.")
+        if to_train and (file := next((one for one in self.method if one not in NAMES), None)):
+            raise UsageError(
+                f"{file} has learned already, and would be trained anew; name a method."
+            )
         found = [find_method(text) for text in self.method]
         if self.network is not None:
             from skyline_viz.methods.sky_network import SkyNetwork  # noqa: PLC0415
@@ -62,19 +79,13 @@ class Methods:
                 one.require_trained()
         return found
 
-    def one(self, instead_of: Sequence[str] = (), *, to_train: bool = False) -> Method:
-        """The only method.
-
-        Args:
-            instead_of: Options that were given and choose another detector.
-            to_train: See `chosen`.
+    def one(self, bank: Path | None, config: DetectorConfig, *, to_train: bool = False) -> Method:
+        """The only method; takes what `chosen` takes.
 
         Raises:
-            UsageError: There are several, or one of these options was given, too.
+            UsageError: There are several, or one of the reasons of `chosen`.
         """
-        if instead_of:
-            raise UsageError(f"--method brings its own settings; leave out {instead_of[0]}.")
-        found = self.chosen(to_train=to_train)
+        found = self.chosen(bank=bank, config=config, to_train=to_train)
         if len(found) != 1:
             raise UsageError(f"one method can be used here, and {len(found)} are named.")
         return found[0]

@@ -76,7 +76,8 @@ class Tables:
         failures = [failure for one in measured.values() for failure in one.failures]
         if not any(one.results for one in measured.values()):
             return status_after(failures) or SOME_FAILED
-        self._write(self._tables(sets, measured), measured)
+        self._write_results(measured)  # first: it took long, and what follows may fail
+        self._write_tables(self._tables(measured))
         return status_after(failures)
 
     def _measure(
@@ -91,12 +92,11 @@ class Tables:
             for name, items in sets.items()
         }
 
-    def _tables(
-        self, sets: Mapping[str, Sequence[DatasetItem]], measured: dict[str, Compared]
-    ) -> list[Table]:
+    def _tables(self, measured: dict[str, Compared]) -> list[Table]:
         from skyline_viz import tables  # noqa: PLC0415
         from skyline_viz.methods.timing import time_methods  # noqa: PLC0415
 
+        sets = {name: compared.items for name, compared in measured.items()}
         studies = []
         if not self.no_studies:
             say("filter sizes and training sets ...")
@@ -104,9 +104,9 @@ class Tables:
                 tables.table_3(sets, self.folds, self.seed, self.workers),
                 tables.table_4(sets, self.seed, self.workers),
             ]
-        first, compared = next(iter(measured.items()))
         say("times ...")
-        timings = time_methods(compared.fitted, sets[first][0].photo())
+        compared = max(measured.values(), key=lambda one: len(one.fitted))
+        timings = time_methods(compared.fitted, compared.items[0].photo())
         return [
             tables.table_1(measured, self.folds),
             tables.table_2(measured),
@@ -115,14 +115,9 @@ class Tables:
             tables.table_6(timings, compared.fitted),
         ]
 
-    def _write(self, tables: list[Table], measured: dict[str, Compared]) -> None:
+    def _write_results(self, measured: dict[str, Compared]) -> None:
         from skyline_viz.evaluation_report import write_comparison, write_histogram  # noqa: PLC0415
-        from skyline_viz.files import write_text  # noqa: PLC0415
-        from skyline_viz.tables_report import latex, markdown  # noqa: PLC0415
 
-        page = markdown(tables)
-        write_text(self.out / "tables.md", page)
-        write_text(self.out / "tables.tex", latex(tables))
         for name, compared in measured.items():
             folder = self.out / name if len(measured) > 1 else self.out
             folder.mkdir(exist_ok=True)
@@ -132,5 +127,13 @@ class Tables:
                 if results := compared.results.get(method):
                     title = f"{name}: {len(results)} photos, {method}"
                     write_histogram(folder / f"histogram-{method}.png", results, title)
+
+    def _write_tables(self, tables: list[Table]) -> None:
+        from skyline_viz.files import write_text  # noqa: PLC0415
+        from skyline_viz.tables_report import latex, markdown  # noqa: PLC0415
+
+        page = markdown(tables)
+        write_text(self.out / "tables.md", page)
+        write_text(self.out / "tables.tex", latex(tables))
         print(page)
         print(f"tables.md, tables.tex, methods.csv and histograms in {self.out}")

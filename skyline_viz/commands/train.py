@@ -62,8 +62,14 @@ class Train:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
         items = with_truth(dataset)
         output_folder(self.out.parent, ())
-        if self.method not in ("default", "paper"):
+        if self.method == "paper":
+            raise UsageError(
+                "the filters of paper are trained by --preset paper, without --method."
+            )
+        if self.method != "default":
             return self._train_method(dataset.name, items)
+        if self.pretrained is not None:
+            raise UsageError("--pretrained is for FCNs and SegNet, not for our filter bank.")
         from skyline_viz.evaluation import train_on  # noqa: PLC0415
 
         bank, failures = train_on(
@@ -88,6 +94,8 @@ class Train:
         from skyline_viz.methods.protocol import LearnedMethod  # noqa: PLC0415
         from skyline_viz.methods.registry import Trained, make_method, save_method  # noqa: PLC0415
 
+        if self.training != TrainingConfig():
+            raise UsageError(f"--preset and --training are for our filter bank, not {self.method}.")
         method = make_method(self.method)
         if not isinstance(method, LearnedMethod):
             raise UsageError(f"the method {self.method} has nothing to learn.")

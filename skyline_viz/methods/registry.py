@@ -143,6 +143,21 @@ def load_method(path: Path) -> Method:
     return loaded
 
 
+def learned_from(text: str) -> str:
+    """Name of the data set that a method, named or in a file, was trained on; empty if unknown.
+
+    Raises:
+        MethodError: There is no such method.
+    """
+    method = find_method(text)
+    if isinstance(method, Detector):
+        return method.bank.provenance.dataset
+    if text in NAMES:
+        return ""
+    header, _ = _read(Path(text))
+    return str(header.get("trained", {}).get("dataset", ""))
+
+
 def _check_settings(loaded: Method, made: Method) -> None:
     """Refuse settings of other kinds than a new method of that name has.
 

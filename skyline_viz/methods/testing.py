@@ -20,6 +20,9 @@ class Compared:
     results: dict[str, list[PhotoResult]]
     """For each method the results by name of the photo."""
 
+    items: list[DatasetItem]
+    """The photos that could be read."""
+
     fitted: dict[str, Method]
     """The methods as the first part of the photos was tested with them."""
 
@@ -83,7 +86,7 @@ def compare_methods(
         for method, one in zip(methods, fitted, strict=True)
         if one and one[0] is not None
     }
-    return Compared(results, ready, failures)
+    return Compared(results, usable, ready, failures)
 
 
 def fold_method(
