@@ -189,7 +189,11 @@ def varied(one: Lesson, size: tuple[int, int], rng: np.random.Generator) -> tupl
 
 
 def export(net: SceneNet) -> bytes:
-    """A network as an ONNX file, for photos of any size that is a multiple of 32."""
+    """A network as an ONNX file, for photos of any size that is a multiple of 32.
+
+    The file names one size: OpenCV 4 takes that for an example, runs others too, and cannot read
+    FCN-8s when the size is left open.
+    """
     file = io.BytesIO()
     with warnings.catch_warnings():
         # the exporter by tracing is on its way out, but OpenCV reads what it writes
@@ -202,6 +206,5 @@ def export(net: SceneNet) -> bytes:
             opset_version=12,
             input_names=["photo"],
             output_names=["sky"],
-            dynamic_axes={"photo": {2: "rows", 3: "columns"}, "sky": {2: "rows", 3: "columns"}},
         )
     return file.getvalue()
