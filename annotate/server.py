@@ -22,6 +22,7 @@ from annotate.stage_viewer import StageViewer
 from annotate.store import StaleError
 from annotate.workbench import UnknownPhotoError, Workbench
 from skyline_viz.constraints import PathError
+from skyline_viz.methods.protocol import MethodError
 from skyline_viz.photo import PhotoError
 from skyline_viz.viewer import ViewerError
 
@@ -34,6 +35,7 @@ _STATUSES: dict[type[Exception], int] = {
     EditError: 422,
     UnknownPhotoError: 404,
     PhotoError: 410,
+    MethodError: 422,
     FormatError: 422,
     StoreError: 507,
     ViewerError: 503,

@@ -156,7 +156,7 @@ def _figure_1(contents: Contents) -> dict[str, list[str]]:
         "Edges": [entities.EDGES],
         "Score: bright like skyline": [entities.SCORE],
         **({"Gradient strength": [entities.STRENGTH]} if contents.filters else {}),
-        **{name.capitalize(): [f"{entities.MAPS}/{name}"] for name in contents.maps},
+        **{name.capitalize(): [entities.map_of(name)] for name in contents.maps},
         "Nodal cost: bright is cheap": [entities.COST],
         "Path": [entities.PHOTO, *_with_halos()],
     }

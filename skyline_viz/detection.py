@@ -102,8 +102,11 @@ class Detection:
 
     @property
     def shown_cost(self) -> F32:
-        """``(H, W)`` nodal costs to look at: NaN where the method rules pixels out."""
-        ruled_out = self.cost >= self.non_edge_cost
+        """``(H, W)`` nodal costs to look at: NaN where the method rules pixels out.
+
+        Where all pixels are candidates, none is, however dear it is.
+        """
+        ruled_out = (self.cost >= self.non_edge_cost) & (not self.edges.all())
         shown: F32 = np.where(ruled_out, np.float32(np.nan), self.cost)
         return shown
 

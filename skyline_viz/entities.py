@@ -146,6 +146,15 @@ COLUMN = "column"
 """Timeline: the column whose path pixel is looked at."""
 
 
+def map_of(name: str) -> str:
+    """Entity path of a further map of a method.
+
+    >>> map_of("sky probability")
+    'maps/sky_probability'
+    """
+    return f"{MAPS}/{name.replace(' ', '_')}"
+
+
 def below(parent: str, entity: str) -> str:
     """Path of an entity under a parent, or of itself.
 

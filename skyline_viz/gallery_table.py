@@ -176,9 +176,11 @@ def _cards(truth: bool, cause: Cause | None, compared: str) -> rrt.TableBlueprin
         rrt.Column("worst", name="worst"),
         rrt.Column("wrong", name="wrong"),
     ]
-    against = [rrt.Column("difference", name=f"differs from {compared} (px)")] if compared else []
+    against = (
+        [rrt.Column("difference", name=f"yellow is {compared}, apart (px)")] if compared else []
+    )
     if compared and truth:
-        against.append(rrt.Column("other_a_err", name=f"A_err of {compared} (px)"))
+        against.append(rrt.Column("other_a_err", name="its A_err (px)"))
     columns = [
         rrt.Column("photo", name="skyline", column_type=rrt.PreviewCell(thumbnail)),
         *against,

@@ -102,7 +102,7 @@ def log_maps(
         recording.log(at(entities.BIN), legend, rr.SegmentationImage(bin_map))
     for stage, further in detection.maps.items():
         quantity = Quantity(stage)
-        dense_map(quantity, further, levels).log(recording, at(f"{entities.MAPS}/{stage}"))
+        dense_map(quantity, further, levels).log(recording, at(entities.map_of(stage)))
     return len(rows)
 
 

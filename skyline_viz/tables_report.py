@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from skyline_viz.tables import Cell, Table
 
-_ESCAPED = {"_": r"\_", "%": r"\%", "&": r"\&", "#": r"\#", "<": "$<$", "+": "$+$"}
+_ESCAPED = {one: f"\\{one}" for one in "_%&#${}"} | {one: f"${one}$" for one in "<>+|"}
+_ESCAPED |= {"\\": r"\textbackslash{}", "^": r"\textasciicircum{}", "~": r"\textasciitilde{}"}
 
 
 def markdown(tables: Sequence[Table]) -> str:
@@ -68,7 +69,7 @@ def _rule(table: Table, column: int) -> str:
 
 
 def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"
+    return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 
 
 def _latex_line(cells: Sequence[str]) -> str:

@@ -39,9 +39,9 @@ def write_hills(folder, count=3, **size):
     return folder
 
 
-def workbench(folder, annotator="ann", **how):
+def workbench(folder, annotator="ann", detector=DETECTOR, **how):
     """A workbench over a folder."""
-    return Workbench(Store(folder), DETECTOR, Assignment(annotator, **how))
+    return Workbench(Store(folder), detector, Assignment(annotator, **how))
 
 
 @contextmanager

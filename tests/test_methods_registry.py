@@ -28,6 +28,7 @@ from skyline_viz.methods.registry import (
     save_method,
 )
 from skyline_viz.methods.score_images import PATCH
+from skyline_viz.methods.sky_network import SkyNetwork
 from skyline_viz.methods.testing import compare_methods
 from skyline_viz.methods.timing import time_methods
 from skyline_viz.rendering import render
@@ -277,3 +278,50 @@ def test_a_method_is_not_tested_on_what_it_learned_from_without_a_word(folder, t
     assert "was trained on hills, so this is no test" in capsys.readouterr().err
     assert main(["evaluate", str(folder), "--method", file, "--folds", "2"]) == 2
     assert "would be trained anew" in capsys.readouterr().err
+
+
+def test_a_network_is_what_its_file_holds(tmp_path):
+    file = tmp_path / "sky.onnx"
+    file.write_bytes(b"first")
+    network = SkyNetwork(file, sky_class=2)
+    digest = method_digest(network)
+    assert model_bytes(network) == 5
+    save_method(network, tmp_path / "m.npz", Trained())
+    assert load_method(tmp_path / "m.npz") == network
+    file.write_bytes(b"other")
+    assert method_digest(network) != digest
+    with pytest.raises(MethodError, match="is another one than it was"):
+        load_method(tmp_path / "m.npz")
+    file.unlink()
+    with pytest.raises(MethodError, match="is gone"):
+        load_method(tmp_path / "m.npz")
+
+
+def test_a_network_that_cannot_be_read_is_told_once(folder, tmp_path, capsys):
+    (tmp_path / "junk.onnx").write_text("junk")
+    for name in ("junk.onnx", "gone.onnx"):
+        assert main(["evaluate", str(folder), "--network", str(tmp_path / name)]) == 2
+        assert capsys.readouterr().err.count(name) == 1
+
+
+def test_where_all_pixels_are_candidates_none_is_shown_as_ruled_out():
+    photo = render("clear", 1, *SIZE).photo
+    dense = make_method("gradient").detect(photo)
+    assert dense.cost.max() > 0
+    assert np.isfinite(replace(dense, cost=dense.cost + 1).shown_cost).all()
+    ruled_out = EdgesOnly().detect(photo)
+    assert np.isnan(ruled_out.shown_cost).any()
+
+
+def test_tables_survive_any_name():
+    table = tables.Table("I", "a|b", ("a", "b"), (("x|y", r"a_b^c\d$e{f}~"),))
+    assert r"| x\|y |" in markdown([table])
+    line = next(one for one in latex([table]).splitlines() if "textbackslash" in one)
+    assert r"a\_b\textasciicircum{}c\textbackslash{}d\$e\{f\}\textasciitilde{}" in line
+
+
+def test_published_rows_name_their_training_sets():
+    rows = {row[0]: row[2] for row in tables.table_1({}, 2).rows}
+    assert rows["Proposed"] == "CH1"
+    assert rows["G_r"] == "nothing"
+    assert rows["SVM-mDCSI"] == "Basalt Hills (9)"

@@ -9,14 +9,13 @@ from annotate import images
 from annotate.kept_detectors import pack, unpack
 from annotate.learning import LEAST, Learner
 from annotate.operations import SetAnchor, SetStatus
-from annotate.store import Store
-from annotate.workbench import Assignment, Workbench
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.methods.gradient import GradientCost
+from skyline_viz.methods.protocol import MethodError
 from skyline_viz.methods.registry import make_method, method_digest
 from skyline_viz.skyline import Skyline
-from tests.labelling import hills, workbench, write_hills
+from tests.labelling import hills, served, workbench, write_hills
 
 
 @pytest.fixture
@@ -25,7 +24,7 @@ def folder(tmp_path):
 
 
 def proposing(folder, method):
-    return Workbench(Store(folder), method, Assignment("ann"))
+    return workbench(folder, detector=method)
 
 
 def test_a_label_goes_on_with_the_method_that_proposed_it(folder):
@@ -79,3 +78,14 @@ def test_learning_on_the_way_is_for_our_detector(tmp_path):
     assert learner.now().state == "failed"
     assert "the method gradient proposes here" in learner.now().detail
     bench.close()
+
+
+def test_a_method_that_fails_on_a_photo_is_a_sentence(tmp_path):
+    class Failing(EdgesOnly):
+        def detect(self, photo):
+            raise MethodError("the network is damaged.")
+
+    with served(write_hills(tmp_path, count=1), detector=Failing()) as client:
+        said = client.get("/api/photos/1")
+    assert said.status_code == 422
+    assert "the network is damaged." in said.text

@@ -69,7 +69,9 @@ class Methods:
         if self.network is not None:
             from skyline_viz.methods.sky_network import SkyNetwork  # noqa: PLC0415
 
-            found.append(SkyNetwork(self.network, self.sky_class))
+            network = SkyNetwork(self.network, self.sky_class)
+            network.check()
+            found.append(network)
         names = [one.name for one in found]
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:

@@ -95,11 +95,14 @@ def save_method(method: Method, path: str | os.PathLike[str], trained: Trained) 
         for one in fields(method)  # type: ignore[arg-type]  # all methods are dataclasses
         if one.name not in ("name", "model")
     }
+    if "network" in settings:
+        settings["network"] = Path(settings["network"]).resolve()
     header = {
         "format": FORMAT,
         "version": VERSION,
         "name": method.name,
         "settings": settings,
+        "digest": method_digest(method),
         "trained": asdict(trained),
     }
     arrays: dict[str, Any] = {
@@ -131,7 +134,7 @@ def load_method(path: Path) -> Method:
         raise MethodError(f"{path} is of version {header.get('version')}, not {VERSION}.")
     try:
         if header["name"] == "network":
-            return _network(header["settings"])
+            return _network(header["settings"], header["digest"])
         made: Any = make_method(str(header["name"]))
         model = {"model": arrays} if isinstance(made, LearnedMethod) else {}
         loaded: Method = type(made)(name=header["name"], **model, **header["settings"])
@@ -171,12 +174,21 @@ def _check_settings(loaded: Method, made: Method) -> None:
             raise TypeError(f"its {one.name} is {value!r}")
 
 
-def _network(settings: dict[str, Any]) -> Method:
-    """A network from its settings; the file is the user's, and stays where it is."""
+def _network(settings: dict[str, Any], digest: str) -> Method:
+    """A network from its settings; the file is the user's, and stays where it is.
+
+    Raises:
+        MethodError: The file is gone, or holds another network than before.
+    """
     from skyline_viz.methods.sky_network import SkyNetwork  # noqa: PLC0415
 
     mean, std = tuple(settings.pop("mean")), tuple(settings.pop("std"))
-    return SkyNetwork(Path(settings.pop("network")), mean=mean, std=std, **settings)
+    network = SkyNetwork(Path(settings.pop("network")), mean=mean, std=std, **settings)
+    if not network.network.is_file():
+        raise MethodError(f"the network {network.network} is gone.")
+    if method_digest(network) != digest:
+        raise MethodError(f"the network {network.network} is another one than it was.")
+    return network
 
 
 def method_digest(method: Method) -> str:
@@ -187,8 +199,10 @@ def method_digest(method: Method) -> str:
         if isinstance(value, Mapping):
             for name, array in sorted(value.items()):
                 digest.update(name.encode() + array.tobytes())
+        elif isinstance(value, Path) and value.is_file():  # what it holds, wherever it lies
+            digest.update(value.read_bytes())
         else:
-            digest.update(value if isinstance(value, bytes) else f"{one.name} {value}".encode())
+            digest.update(f"{one.name} {value}".encode())
     return digest.hexdigest()
 
 
@@ -198,7 +212,8 @@ def model_bytes(method: Method) -> int:
         return method.bank.filters.nbytes
     if isinstance(method, LearnedMethod):
         return sum(array.nbytes for array in method.model.values())
-    return 0
+    network = getattr(method, "network", None)
+    return network.stat().st_size if isinstance(network, Path) else 0
 
 
 def _read(path: Path) -> tuple[dict[str, Any], Mapping[str, Any]]:

@@ -57,6 +57,14 @@ class SkyNetwork:
     name: str = "network"
     """Its name."""
 
+    def check(self) -> None:
+        """Open the file.
+
+        Raises:
+            MethodError: It is missing, no ONNX file, or its network takes something else.
+        """
+        _ = self._network
+
     def detect(self, photo: U8) -> Detection:
         """Find the skyline of a photo ``(H, W, 3)`` uint8 RGB.
 
@@ -112,7 +120,13 @@ class SkyNetwork:
         if labels and classes == 1:
             if self.sky_class < 0:
                 raise MethodError(f"{self.network} has no class {self.sky_class}.")
-            return np.asarray(output[0, 0] == self.sky_class, np.float32)
+            sky: F32 = np.asarray(output[0, 0] == self.sky_class, np.float32)
+            if not sky.any():
+                told = ", ".join(map(str, np.unique(output)[:9]))
+                raise MethodError(
+                    f"{self.network} calls no pixel of this photo {self.sky_class}, only {told}."
+                )
+            return sky
         if not 0 <= self.sky_class < classes:
             raise MethodError(
                 f"{self.network} has no class {self.sky_class}: it tells {classes}, from 0."
