@@ -76,9 +76,12 @@ def methods_table(results: Mapping[str, Sequence[PhotoResult]]) -> "Table":
     ):
         table.add_column(heading, justify="right")
     for name, found in results.items():
+        if not found:
+            table.add_row(name, *["-"] * 9)
+            continue
         one = Summary.of(found)
         errors = (one.mean, one.standard_deviation, one.median, one.minimum, one.maximum)
-        good = f"{round(one.under_4_px * one.photos)}/{one.photos}" if found else "-"
+        good = f"{round(one.under_4_px * one.photos)}/{one.photos}"
         table.add_row(
             name,
             *(f"{error:.2f}" for error in errors),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Protocol, Self, runtime_checkable
 
@@ -143,8 +143,8 @@ class LearnedMethod:
             )
 
 
-def shown_to_learners(items: Sequence[DatasetItem]) -> list[tuple[U8, Skyline]]:
-    """Photos and truths of a data set, those without a truth left out.
+def shown_to_learners(items: Sequence[DatasetItem]) -> Iterator[tuple[U8, Skyline]]:
+    """Photos and truths of a data set, those without a truth left out, read one at a time.
 
     Raises:
         ValueError: No photo has a truth.
@@ -152,7 +152,7 @@ def shown_to_learners(items: Sequence[DatasetItem]) -> list[tuple[U8, Skyline]]:
     pairs = [(item, truth) for item in items if (truth := item.truth()) is not None]
     if not pairs:
         raise ValueError("training needs at least one photo with a true skyline.")
-    return [(item.photo(), truth) for item, truth in pairs]
+    return ((item.photo(), truth) for item, truth in pairs)
 
 
 def near_truth(shape: tuple[int, int], truth: Skyline, band: float) -> Bool:

@@ -32,7 +32,6 @@ others are off by 5; a ``delta`` of 5 instead of Lie's 30 mends one of them.
 
 from __future__ import annotations
 
-import importlib
 import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -47,9 +46,10 @@ from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import edge_pixels
 from skyline_viz.methods.descriptors import LENGTH, describe, project
 from skyline_viz.methods.edges_only import RULED_OUT, fill_gaps, ruled_out_but
+from skyline_viz.methods.extras import needed
 from skyline_viz.methods.frames import without_frame
 from skyline_viz.methods.gradient import gradient_cost
-from skyline_viz.methods.protocol import LearnedMethod, MethodError, Model, shown_to_learners
+from skyline_viz.methods.protocol import LearnedMethod, Model, shown_to_learners
 from skyline_viz.methods.stable_edges import stable_edges
 from skyline_viz.skyline import Skyline
 
@@ -112,6 +112,7 @@ class SiftHog(LearnedMethod):
             MethodError: scikit-learn is missing.
             ValueError: No photo has a truth, or there are no edges on, or off it.
         """
+        needed("sklearn.svm", "methods", self.name)  # before hours of descriptors
         parts = [samples(photo, truth, seed) for photo, truth in shown_to_learners(items)]
         weights, bias = train_svm(*(np.concatenate(part) for part in zip(*parts, strict=True)))
         return {"weights": weights, "bias": bias}
@@ -250,13 +251,7 @@ def train_svm(descriptors: F32, skyline: npt.NDArray[np.bool_]) -> tuple[F32, F3
         MethodError: scikit-learn is missing.
         ValueError: All descriptors are of one kind.
     """
-    try:
-        svm = importlib.import_module("sklearn.svm")
-    except ImportError as error:
-        raise MethodError(
-            "training this method needs scikit-learn; "
-            "install it with: pip install 'skyline-viz[methods]'"
-        ) from error
+    svm = needed("sklearn.svm", "methods", "SIFT+HOG")
     if skyline.all() or not skyline.any():
         raise ValueError("training needs photos with edges on the true skyline, and others off it.")
     mean: F64 = descriptors.mean(axis=0, dtype=np.float64)

@@ -151,7 +151,8 @@ def _learned(
     title = f"training {method.name}"
     for outcome in run(_learn, tasks, workers=min(workers or len(tasks), len(tasks)), title=title):
         if isinstance(outcome, Failure):
-            failures.append(outcome)
+            if outcome not in failures:  # what is missing is missing in every fold
+                failures.append(outcome)
             learned.append(None)
         else:
             learned.append(outcome)
