@@ -1,4 +1,4 @@
-.PHONY: demo test check bench pictures samples lock clean
+.PHONY: demo test check bench reliability pictures samples lock clean
 
 SOURCES = pyproject.toml requirements-dev.txt tools/setup.sh
 
@@ -15,6 +15,9 @@ check: .venv/.installed-dev  ## Lint and types only.
 
 bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the folder of the real data sets.
 	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)")
+
+reliability: .venv/.installed-dev  ## The tables of docs/reliability.md: faults, kills, offline minutes, hostile files.
+	.venv/bin/python -m benchmarks.reliability
 
 pictures: .venv/.installed-dev  ## Draw the pictures of the docs again.
 	.venv/bin/skyline-viz inspect sample_data/images/hazy-1.jpg --truth sample_data/masks/hazy-1.png \
