@@ -41,6 +41,7 @@ from annotate.formats.common import (
     one_each,
 )
 from annotate.labels import Label
+from skyline_viz.files import make_folder, move_folder
 
 FORMATS: dict[str, tuple[Writer, Reader]] = {
     "mask": (masks.write_masks, masks.read_masks),
@@ -97,14 +98,14 @@ def export_labels(labels: Iterable[Label], photos: Path, out: Path, format: str)
                 notes.append(
                     f"{entry.label.name}: {format} cannot say which columns are not visible."
                 )
-    out.parent.mkdir(parents=True, exist_ok=True)
+    make_folder(out.parent)
     with tempfile.TemporaryDirectory(prefix=".export-", dir=out.parent) as folder:
         whole = Path(folder) / "whole"
         whole.mkdir()
         FORMATS[format][0](entries, whole)
         if out.exists():
             out.rmdir()  # it is empty
-        whole.rename(out)
+        move_folder(whole, out)
     return Export(len(entries), tuple(notes))
 
 
