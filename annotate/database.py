@@ -9,16 +9,21 @@ from __future__ import annotations
 
 import os
 import sqlite3
+import stat
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 
-from skyline_viz.files import replacing
+from skyline_viz.files import flush
 
 NAME = "skyline-labels.sqlite"
 """The file's name, in the folder of the photos."""
 
-_APPLICATION = 0x534B594C  # "SKYL": says whose database it is
+APPLICATION = 0x534B594C
+"""``SKYL``: says whose database it is."""
+
+_LONGEST = 200  # characters of what a file says that are shown
+_BEGINS = b"SQLite format 3\0"
 _NETWORK = ("nfs", "cifs", "smb", "sshfs", "9p", "afs", "ceph", "gluster", "lustre", "fuse.")
 
 MIGRATIONS = (
@@ -64,12 +69,27 @@ MIGRATIONS = (
     CREATE TRIGGER operations_remain BEFORE DELETE ON operations
         BEGIN SELECT RAISE(ABORT, 'operations are never deleted'); END;
     """,
+    "",  # placeholder
+    """
+    ALTER TABLE photos ADD COLUMN pixels TEXT;      -- SHA-256 of its upright pixels, once read
+    ALTER TABLE photos ADD COLUMN touched INTEGER;  -- change of the file's entry, as `changed`
+    CREATE TABLE set_aside (
+        label INTEGER PRIMARY KEY REFERENCES labels,
+        annotator TEXT NOT NULL,         -- whose label it was
+        number INTEGER NOT NULL,         -- and of which pass; the label itself has -id
+        reason TEXT NOT NULL
+    );
+    """,
 )
 """What leads from each version of the schema to the next; the number of them is the version."""
 
 
 class StoreError(OSError):
     """Labels cannot be read or kept; the message is one sentence that says why."""
+
+
+class UnreadableError(StoreError):
+    """A single label cannot be read; the message is one sentence that names it and says why."""
 
 
 def connect(folder: Path) -> sqlite3.Connection:
@@ -81,12 +101,10 @@ def connect(folder: Path) -> sqlite3.Connection:
         StoreError: Damaged, of a newer version, somebody else's, or not writable.
     """
     path = folder / NAME
-    if path.exists() and path.stat().st_size > 0:
-        version = _examine(path)
-    else:
-        version = 0
-        if not os.access(folder, os.W_OK):
-            raise StoreError(f"{folder} is read-only, and labels are kept in it.")
+    exists = holds_something(path)
+    version = examine(path) if exists else 0
+    if not exists and not os.access(folder, os.W_OK):
+        raise StoreError(f"{folder} is read-only, and labels are kept in it.")
     if not os.access(path if path.exists() else folder, os.W_OK):
         raise StoreError(f"{path} is read-only, and labels are kept in it.")
     with sentences(path):
@@ -94,35 +112,60 @@ def connect(folder: Path) -> sqlite3.Connection:
             path, isolation_level=None, check_same_thread=False, timeout=10
         )
         try:
-            connection.execute("PRAGMA foreign_keys = ON")
+            prepare(connection)
             mode = "DELETE" if on_network(folder) else "WAL"
             connection.execute(f"PRAGMA journal_mode = {mode}")
             connection.execute("PRAGMA synchronous = FULL")
-            _migrate(connection, version)
+            migrate(connection, version)
+            flush(folder)  # SQLite waits for the content of a new file, but not for its name
         except BaseException:
             connection.close()
             raise
     return connection
 
 
-def backup(folder: Path, path: Path) -> None:
-    """Copy the labels of a folder into a file, also while they are being changed.
+def prepare(connection: sqlite3.Connection) -> None:
+    """Set what every connection to labels needs."""
+    connection.execute("PRAGMA foreign_keys = ON")
+    # damaged text is a fault of the label that it belongs to, and must not hide the others
+    connection.text_factory = lambda data: data.decode("utf-8", "surrogateescape")
 
-    Raises:
-        StoreError: There are none, or the copy cannot be written.
-    """
-    source = folder / NAME
-    if not source.is_file():
-        raise StoreError(f"{folder} has no labels to back up.")
-    _examine(source)
-    with (
-        sentences(source),
-        replacing(path) as temporary,
-        closing(sqlite3.connect(f"{source.absolute().as_uri()}?mode=ro", uri=True)) as labels,
-        closing(sqlite3.connect(temporary)) as copy,
-    ):
-        labels.backup(copy)
-        copy.execute("PRAGMA journal_mode = DELETE")  # one file, not three
+
+class Place:
+    """Where a file that is open lies: writing into one that was moved away would keep nothing."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._files = [path, path.with_name(f"{path.name}-wal")]
+        self._known: dict[Path, tuple[int, int]] = {}
+        self._by_number = not on_network(path.parent)  # elsewhere a file's number may change
+
+    def confirm(self) -> None:
+        """Make sure that the file, and its journal once there is one, are where they were.
+
+        Raises:
+            StoreError: They were moved, removed, or replaced.
+        """
+        for file in self._files:
+            try:
+                found = file.stat()
+            except OSError:
+                found = None
+            before = self._known.get(file)
+            if found is None and (before or file == self._path):
+                raise StoreError(self._moved())
+            if found is None:
+                continue
+            number = (found.st_dev, found.st_ino)
+            if before and self._by_number and before != number:
+                raise StoreError(self._moved())
+            self._known[file] = number
+
+    def _moved(self) -> str:
+        return (
+            f"{self._path} was moved, removed or replaced while it was open, so nothing is kept "
+            "in it any more; put it back where it was, and open the folder again."
+        )
 
 
 @contextmanager
@@ -134,7 +177,7 @@ def sentences(path: Path) -> Iterator[None]:
         said = str(error)
         if "full" in said:
             raise StoreError(f"the disk is full, so nothing was added to {path}.") from error
-        if "readonly" in said or "read-only" in said or "unable to open" in said:
+        if "readonly" in said or "read-only" in said:
             raise StoreError(f"{path} cannot be written: {said}.") from error
         if "locked" in said:
             raise StoreError(f"{path} is being written by another program; try again.") from error
@@ -142,7 +185,35 @@ def sentences(path: Path) -> Iterator[None]:
     except sqlite3.IntegrityError:
         raise  # a fault of this program, not of the file
     except sqlite3.DatabaseError as error:
-        raise StoreError(f"{path} is damaged: {error}; restore it from a backup.") from error
+        raise StoreError(damaged(path, str(error))) from error
+    except UnicodeError as error:
+        raise StoreError(damaged(path, "it holds text that is none")) from error
+
+
+def damaged(path: Path, reason: str) -> str:
+    """The sentence about a file that is damaged, and what can be done."""
+    return (
+        f"{path} is damaged: {reason}; restore it from a backup, or save what can be read with "
+        f"skyline-annotate repair {path.parent}."
+    )
+
+
+def holds_something(path: Path) -> bool:
+    """Whether labels have been kept in a file.
+
+    Raises:
+        StoreError: It is no file, or cannot be looked at.
+    """
+    try:
+        status = path.stat()
+    except FileNotFoundError:
+        return False
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise StoreError(f"{path} cannot be read: {reason}.") from error
+    if not stat.S_ISREG(status.st_mode):
+        raise StoreError(f"{path} is a folder or a device, and labels are kept in a file.")
+    return status.st_size > 0
 
 
 def on_network(folder: Path) -> bool:
@@ -161,28 +232,69 @@ def on_network(folder: Path) -> bool:
     return kind.startswith(_NETWORK)
 
 
-def _examine(path: Path) -> int:
-    """Version of the schema of a file, read without changing it."""
-    with (
-        sentences(path),
-        closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as labels,
-    ):
+def examine(path: Path) -> int:
+    """Version of the schema of a file, read without changing it.
+
+    Raises:
+        StoreError: It is damaged, of a newer version, or somebody else's.
+    """
+    require_database(path)
+    address = f"{path.absolute().as_uri()}?mode=ro"
+    with sentences(path), closing(sqlite3.connect(address, uri=True, timeout=10)) as labels:
+        return version_of(labels, path)
+
+
+def require_database(path: Path) -> None:
+    """Make sure that a file begins as a database does.
+
+    Raises:
+        StoreError: It does not, or cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            begins = file.read(len(_BEGINS))
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise StoreError(f"{path} cannot be read: {reason}.") from error
+    if begins != _BEGINS:
+        raise StoreError(damaged(path, "it is no database"))
+
+
+def version_of(labels: sqlite3.Connection, path: Path) -> int:
+    """Version of the schema of labels that are open, when they are sound.
+
+    Args:
+        labels: The labels.
+        path: Their file, to be named.
+
+    Raises:
+        StoreError: They are damaged, of a newer version, or somebody else's.
+    """
+    with sentences(path):
+        prepare(labels)
         version = int(labels.execute("PRAGMA user_version").fetchone()[0])
         whose = int(labels.execute("PRAGMA application_id").fetchone()[0])
-        if whose != _APPLICATION:
+        if whose != APPLICATION:
             raise StoreError(f"{path} is a database, but not one of skyline-annotate.")
         if version > len(MIGRATIONS):
             raise StoreError(
                 f"{path} is of version {version}, and this program knows versions up to "
                 f"{len(MIGRATIONS)}; install a newer one."
             )
-        found = labels.execute("PRAGMA quick_check(1)").fetchone()[0]
+        found = str(labels.execute("PRAGMA integrity_check(1)").fetchone()[0])
         if found != "ok":
-            raise StoreError(f"{path} is damaged: {found}; restore it from a backup.")
+            raise StoreError(damaged(path, shown(found)))
     return version
 
 
-def _migrate(connection: sqlite3.Connection, version: int) -> None:
+def migrate(connection: sqlite3.Connection, version: int) -> None:
+    """Bring labels of an older version up to date."""
     for number, script in enumerate(MIGRATIONS[version:], version + 1):
-        ends = f"PRAGMA application_id = {_APPLICATION}; PRAGMA user_version = {number};"
+        ends = f"PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {number};"
         connection.executescript(f"BEGIN IMMEDIATE; {script} {ends} COMMIT;")
+
+
+def shown(text: str) -> str:
+    """Text from a file that may be damaged, as one short line that any terminal can show."""
+    plain = "".join(one if one.isprintable() else "?" for one in text)
+    return plain if len(plain) <= _LONGEST else f"{plain[:_LONGEST]}..."

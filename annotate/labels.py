@@ -22,6 +22,25 @@ TAGS = ("no visible skyline", "not left to right", "needs terrain data")
 """Tags that are offered; annotators add their own."""
 
 
+LONGEST_NAME = 80
+"""Characters of an annotator's name at most."""
+
+
+def check_annotator(name: str) -> str:
+    """Return the name of an annotator.
+
+    Raises:
+        ValueError: It is none that can be shown on one line, and be part of a file's name.
+    """
+    if not name.strip():
+        raise ValueError("an annotator needs a name.")
+    if len(name) > LONGEST_NAME:
+        raise ValueError(f"an annotator's name has at most {LONGEST_NAME} characters.")
+    if not name.isprintable() or any(one in name for one in "/\\"):
+        raise ValueError(f"an annotator's name is plain text without slashes, not {name!a}.")
+    return name
+
+
 @dataclass(frozen=True, eq=False)
 class Label:
     """One pass of an annotator over a photo."""
@@ -30,7 +49,7 @@ class Label:
     """The photo's file below the folder, with ``/`` between folders."""
 
     digest: str
-    """SHA-256 of the photo's file, in hexadecimal: what the photo is known by."""
+    """SHA-256 of the photo's file, in hexadecimal; empty where the label came without one."""
 
     width: int
     """Columns of the photo."""
@@ -67,6 +86,10 @@ class Label:
 
     blind: bool
     """Whether it was labelled without a proposal."""
+
+    pixels: str = ""
+    """SHA-256 of the photo's upright pixels (`identity.pixel_digest`), which stays when metadata is
+    edited; empty where it is not known."""
 
     def __post_init__(self) -> None:
         """Check that the widths agree, and freeze the array."""

@@ -100,7 +100,7 @@ def read_at_most(path: Path, limit: int) -> bytes:
     Raises:
         OSError: It cannot be read, is no regular file or too large; ``strerror`` says which.
     """
-    with open(path, "rb", opener=_opened_at_once) as file:  # noqa: PTH123  # a path has no opener
+    with open(path, "rb", opener=_opened_at_once) as file:  # a path has no opener
         kind = os.fstat(file.fileno())
         if not stat.S_ISREG(kind.st_mode):
             raise OSError(errno.EINVAL, "it is a pipe or a device, not a file", str(path))

@@ -96,7 +96,7 @@ def steps(monkeypatch, tmp_path):
     fsync, replace, rename = os.fsync, Path.replace, Path.rename
 
     def recorded_fsync(number):
-        said.append(("fsync", Path(os.readlink(f"/proc/self/fd/{number}")).name))
+        said.append(("fsync", Path(f"/proc/self/fd/{number}").readlink().name))
         fsync(number)
 
     def recorded(move):

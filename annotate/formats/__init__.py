@@ -29,7 +29,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from annotate.formats import interchange, masks, tables
+from annotate.contents import Contents
+from annotate.formats import interchange, masks, tables, whole
 from annotate.formats.common import (
     Entry,
     FormatError,
@@ -39,6 +40,7 @@ from annotate.formats.common import (
     entries_of,
     names_of,
     one_each,
+    orphans_of,
 )
 from annotate.labels import Label
 from skyline_viz.files import make_folder, move_folder
@@ -48,12 +50,15 @@ FORMATS: dict[str, tuple[Writer, Reader]] = {
     "painted": (masks.write_painted, masks.read_painted),
     "ch1": (masks.write_ch1, masks.read_ch1),
     "csv": (tables.write_csv, tables.read_csv),
-    "json": (tables.write_json, tables.read_json),
+    "json": (whole.write_json, whole.read_json),
     "coco": (interchange.write_coco, interchange.read_coco),
     "labelme": (interchange.write_labelme, interchange.read_labelme),
     "cvat": (interchange.write_cvat, interchange.read_cvat),
 }
 """How each format is written and read."""
+
+WITHOUT_PHOTOS = ("csv", "json")
+"""Formats that say nothing of a photo's file but its name."""
 
 _LOSES_VISIBILITY = ("mask", "ch1", "coco")
 
@@ -69,23 +74,40 @@ class Export:
     """A sentence for each label that was left out, and for what the format cannot carry."""
 
 
-def export_labels(labels: Iterable[Label], photos: Path, out: Path, format: str) -> Export:  # noqa: A002
-    """Write labels into a new folder.
+def export_labels(
+    labels: Iterable[Label],
+    photos: Path,
+    out: Path,
+    format: str,  # noqa: A002
+    contents: Contents | None = None,
+    *,
+    orphans: bool = False,
+) -> Export:
+    """Write labels into a new folder. A label is written for the photo that it was made for.
 
     Args:
         labels: The labels.
         photos: Folder of the photos.
         out: Where to; it does not exist yet, or is empty.
         format: One of `FORMATS`.
+        contents: What is in the files of the photos; they are read unless it is given.
+        orphans: Whether the labels are of photos that are not in the folder any more.
 
     Raises:
-        FormatError: There is nothing to export, the folder holds something, or the format is none.
+        FormatError: There is nothing to export, the folder holds something, the format is none, or
+            needs photos that are not there.
     """
     if format not in FORMATS:
         raise FormatError(f"{format!r} is no format; there are {', '.join(FORMATS)}.")
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
         raise FormatError(f"{out} exists already; name a folder that does not.")
-    entries, notes = entries_of(labels, photos)
+    if orphans and format not in WITHOUT_PHOTOS:
+        formats = " and ".join(WITHOUT_PHOTOS)
+        raise FormatError(f"labels without their photos leave as {formats} only, not as {format}.")
+    if orphans:
+        entries, notes = orphans_of(labels, photos)
+    else:
+        entries, notes = entries_of(labels, photos, contents)
     if format != "json":
         entries, more = one_each(entries)
         notes += more
@@ -100,26 +122,32 @@ def export_labels(labels: Iterable[Label], photos: Path, out: Path, format: str)
                 )
     make_folder(out.parent)
     with tempfile.TemporaryDirectory(prefix=".export-", dir=out.parent) as folder:
-        whole = Path(folder) / "whole"
-        whole.mkdir()
-        FORMATS[format][0](entries, whole)
+        inside = Path(folder) / "whole"
+        inside.mkdir()
+        FORMATS[format][0](entries, inside)
         if out.exists():
             out.rmdir()  # it is empty
-        move_folder(whole, out)
+        move_folder(inside, out)
     return Export(len(entries), tuple(notes))
 
 
-def archive(labels: Iterable[Label], photos: Path, format: str) -> bytes:  # noqa: A002
-    """Export labels into a ZIP file; what was left out is told in its ``notes.txt``."""
+def archive(
+    labels: Iterable[Label],
+    photos: Path,
+    format: str,  # noqa: A002
+    contents: Contents | None = None,
+    notes: Iterable[str] = (),
+) -> bytes:
+    """Export labels into a ZIP file; `notes` and what was left out are told in its ``notes.txt``."""
     packed = io.BytesIO()
     with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(packed, "w") as file:
         out = Path(folder) / "export"
-        export = export_labels(labels, photos, out, format)
+        export = export_labels(labels, photos, out, format, contents)
         for path in sorted(out.rglob("*")):
             if path.is_file():
                 file.write(path, path.relative_to(out).as_posix(), zipfile.ZIP_DEFLATED)
-        if export.notes:
-            file.writestr("notes.txt", "\n".join(export.notes) + "\n")
+        if said := [*notes, *export.notes]:
+            file.writestr("notes.txt", "\n".join(said) + "\n")
         shutil.rmtree(out)
     return packed.getvalue()
 

@@ -12,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from annotate.contents import Contents
 from annotate.folder import photos_below
 from annotate.labels import Label
 from skyline_viz.photo import PhotoError, photo_size
@@ -57,10 +58,14 @@ Reader: TypeAlias = Callable[[Path, Path, Mapping[str, str]], list[Imported]]
 """Reads a file or folder, given the folder of the photos and the photo of each safe name."""
 
 
-def entries_of(labels: Iterable[Label], photos: Path) -> tuple[list[Entry], list[str]]:
-    """Labels that can be written, and a sentence for each that cannot."""
+def entries_of(
+    labels: Iterable[Label], photos: Path, contents: Contents | None = None
+) -> tuple[list[Entry], list[str]]:
+    """Labels that can be written, each with its own photo, and a sentence for each that cannot."""
     entries, notes = [], []
-    stems = safe_stems(_names_below(photos))
+    names = _names_below(photos)
+    stems = safe_stems(names)
+    contents = contents or Contents(photos, names)
     for label in labels:
         photo = photos / label.name
         if label.name not in stems or not photo.is_file():
@@ -68,23 +73,44 @@ def entries_of(labels: Iterable[Label], photos: Path) -> tuple[list[Entry], list
             notes.append(f"{shown} is not in the folder.")
         elif label.skyline is None:
             notes.append(f"{label.name} has no line.")
-        elif _size(photo) != (label.height, label.width):
+        elif _size(photo) != (label.height, label.width) or not contents.are(label.name, label):
             notes.append(f"{label.name} is another photo now.")
         else:
             entries.append(Entry(label, label.skyline, photo, stems[label.name]))
     return entries, notes
 
 
+def orphans_of(labels: Iterable[Label], photos: Path) -> tuple[list[Entry], list[str]]:
+    """Labels whose photos are gone, and a sentence for each that has no line.
+
+    Where a name is not clear any more, the digest of the photo is part of the stem.
+    """
+    labels = list(labels)
+    taken = Counter(label.name for label in labels) + Counter(_names_below(photos))
+    stems = safe_stems(taken)
+    entries, notes = [], []
+    for label in labels:
+        stem = stems[label.name]
+        if taken[label.name] > 1:
+            stem = f"{stem}.sha256-{label.digest[:12]}"
+        if label.skyline is None:
+            notes.append(f"{label.name} has no line.")
+        else:
+            entries.append(Entry(label, label.skyline, photos / label.name, stem))
+    return entries, notes
+
+
 def one_each(entries: list[Entry]) -> tuple[list[Entry], list[str]]:
     """The first label of each photo, and a sentence for each other one."""
-    first: dict[str, Entry] = {}
+    first: dict[tuple[str, str], Entry] = {}
     notes = []
     for entry in entries:
-        kept = first.setdefault(entry.label.name, entry).label
+        kept = first.setdefault((entry.label.name, entry.label.digest), entry).label
         if kept is not entry.label:
+            left = entry.label
             notes.append(
-                f"{kept.name} has several labels, and only that of {kept.annotator}, "
-                f"pass {kept.number}, is in it."
+                f"{kept.name} has several labels, and only that of {kept.annotator}, pass "
+                f"{kept.number}, is in it, not that of {left.annotator}, pass {left.number}."
             )
     return list(first.values()), notes
 

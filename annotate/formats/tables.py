@@ -1,4 +1,4 @@
-"""Labels as text of our own: CSV with a line a column, and JSON with everything."""
+"""Labels as text of our own, a CSV file a photo; and what all formats in JSON share."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from annotate.formats.common import Entry, FormatError, Imported, check_size
-from annotate.labels import ORIGINS, Label
-from skyline_viz.files import write_text
+from skyline_viz.files import read_at_most
 from skyline_viz.skyline import Skyline, SkylineError
 
-_FORMAT, _VERSION = "skyline-labels", 1
+JSON_FORMAT = "skyline-labels"
+"""What ``labels.json`` says that it is."""
+
+_LIMIT = 2_000_000_000  # bytes of a JSON file
 
 
 def write_csv(entries: list[Entry], folder: Path) -> None:
@@ -38,43 +38,6 @@ def read_csv(source: Path, photos: Path, names: Mapping[str, str]) -> list[Impor
     return found
 
 
-def write_json(entries: list[Entry], folder: Path) -> None:
-    """Write everything into one file."""
-    labels = []
-    for entry in entries:
-        label = vars(entry.label) | {
-            "skyline": {
-                "rows": entry.skyline.rows.astype(int).tolist(),
-                "visible": entry.skyline.visible.tolist(),
-            },
-            "origin": [ORIGINS[one] for one in entry.label.origin.tolist()],
-        }
-        labels.append(label)
-    document = {"format": _FORMAT, "version": _VERSION, "labels": labels}
-    write_text(folder / "labels.json", json.dumps(document) + "\n")
-
-
-def read_json(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
-    """Read what `write_json` wrote."""
-    file = source / "labels.json" if source.is_dir() else source
-    document = load_json(file)
-    if document.get("format") != _FORMAT or not isinstance(document.get("labels"), list):
-        raise FormatError(f'{file} is not of the format "{_FORMAT}".')
-    if document.get("version") != _VERSION:
-        raise FormatError(f"{file} has version {document.get('version')!r}, and 1 is known.")
-    found = []
-    for one in document["labels"]:
-        try:
-            label = _label(one)
-        except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
-            raise FormatError(f"{file} holds a label that is not whole: {error}.") from error
-        if label.name in names and label.skyline is not None:
-            name = names[label.name]
-            line = check_size(name, label.skyline, photos, label.height)
-            found.append(Imported(name, line, label.tags, label))
-    return found
-
-
 def load_json(file: Path) -> dict[str, Any]:
     """Read a JSON object from a file.
 
@@ -82,8 +45,15 @@ def load_json(file: Path) -> dict[str, Any]:
         FormatError: It cannot be read, or holds something else.
     """
     try:
-        document = json.loads(file.read_text(encoding="utf-8-sig"))
-    except (OSError, ValueError, RecursionError) as error:
+        document = json.loads(read_at_most(file, _LIMIT).decode("utf-8-sig"))
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise FormatError(f"{file} cannot be read: {reason}.") from error
+    except RecursionError as error:
+        raise FormatError(f"{file} is not JSON: it is nested too deeply.") from error
+    except MemoryError as error:
+        raise FormatError(f"{file} does not fit into memory.") from error
+    except ValueError as error:
         raise FormatError(f"{file} is not JSON: {error}.") from error
     if not isinstance(document, dict):
         raise FormatError(f"{file} does not hold a JSON object.")
@@ -93,7 +63,7 @@ def load_json(file: Path) -> dict[str, Any]:
 def kind_of_json(file: Path) -> str:
     """The format of a JSON file."""
     document = load_json(file)
-    if document.get("format") == _FORMAT:
+    if document.get("format") == JSON_FORMAT:
         return "json"
     if "annotations" in document and "images" in document:
         return "coco"
@@ -101,27 +71,3 @@ def kind_of_json(file: Path) -> str:
         return "labelme"
     raise FormatError(f"{file} is JSON, but of no known format.")
 
-
-def _label(said: dict[str, Any]) -> Label:
-    skyline = Skyline(
-        rows=said["skyline"]["rows"], visible=np.array(said["skyline"]["visible"], np.bool_)
-    )
-    operations = said["operations"]
-    if not all(isinstance(one, dict) and isinstance(one.get("kind"), str) for one in operations):
-        raise ValueError("an operation is no object with a kind")
-    return Label(
-        name=str(said["name"]),
-        digest=str(said["digest"]),
-        width=int(said["width"]),
-        height=int(said["height"]),
-        annotator=str(said["annotator"]),
-        number=int(said["number"]),
-        status=str(said["status"]),
-        tags=tuple(map(str, said["tags"])),
-        skyline=skyline,
-        origin=np.array([ORIGINS.index(one) for one in said["origin"]], np.uint8),
-        operations=tuple(operations),
-        seconds=float(said["seconds"]),
-        detector=str(said["detector"]),
-        blind=bool(said["blind"]),
-    )

@@ -1,0 +1,151 @@
+"""``labels.json``: labels with everything that is known about them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
+
+from annotate.contents import Contents
+from annotate.formats.common import Entry, FormatError, Imported, check_size
+from annotate.formats.tables import JSON_FORMAT, load_json
+from annotate.labels import ORIGINS, Label, check_annotator
+from annotate.operations import Status
+from skyline_viz.files import write_text
+from skyline_viz.skyline import Skyline, SkylineError
+
+MOST_LABELS = 100_000
+"""Labels that a file may hold."""
+
+MOST_OPERATIONS = 20_000
+"""Operations that the log of a label may have."""
+
+_VERSION = 1
+_SIDE = 100_000  # pixels
+
+Origin = Literal["proposal", "solved", "straight", "drawn"]
+assert Origin.__args__ == ORIGINS  # type: ignore[attr-defined]
+Digest = Annotated[str, Field(pattern=r"^([0-9a-f]{64})?$")]
+Side = Annotated[int, Field(ge=1, le=_SIDE)]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(strict=True)
+
+
+class _Line(_Part):
+    rows: Annotated[list[FiniteFloat], Field(min_length=1, max_length=_SIDE)]
+    visible: Annotated[list[bool], Field(min_length=1, max_length=_SIDE)]
+
+
+class _Label(_Part):
+    name: Annotated[str, Field(min_length=1, max_length=4096)]
+    digest: Digest
+    pixels: Digest = ""
+    width: Side
+    height: Side
+    annotator: str
+    number: Annotated[int, Field(ge=1, le=10**6)]
+    status: Status
+    tags: Annotated[list[Annotated[str, Field(max_length=80)]], Field(max_length=1000)]
+    skyline: _Line
+    origin: Annotated[list[Origin], Field(max_length=_SIDE)]
+    operations: Annotated[list[dict[str, Any]], Field(max_length=MOST_OPERATIONS)]
+    seconds: Annotated[FiniteFloat, Field(ge=0)]
+    detector: Annotated[str, Field(max_length=1000)]
+    blind: bool
+
+
+def write_json(entries: list[Entry], folder: Path) -> None:
+    """Write everything into one file."""
+    labels = []
+    for entry in entries:
+        label = vars(entry.label) | {
+            "skyline": {
+                "rows": entry.skyline.rows.astype(int).tolist(),
+                "visible": entry.skyline.visible.tolist(),
+            },
+            "origin": [ORIGINS[one] for one in entry.label.origin.tolist()],
+        }
+        labels.append(label)
+    document = {"format": JSON_FORMAT, "version": _VERSION, "labels": labels}
+    write_text(folder / "labels.json", json.dumps(document) + "\n")
+
+
+def read_labels(source: Path) -> list[Label]:
+    """Read what `write_json` wrote.
+
+    The form of each label is checked, and its line; what was done to it is checked against the
+    photo, when it is imported.
+
+    Args:
+        source: The file, or its folder.
+
+    Raises:
+        FormatError: It cannot be read, or a label is not whole.
+    """
+    file = source / "labels.json" if source.is_dir() else source
+    document = load_json(file)
+    if document.get("format") != JSON_FORMAT or not isinstance(document.get("labels"), list):
+        raise FormatError(f'{file} is not of the format "{JSON_FORMAT}".')
+    if document.get("version") != _VERSION:
+        raise FormatError(f"{file} has version {document.get('version')!r:.40}, and 1 is known.")
+    if len(document["labels"]) > MOST_LABELS:
+        raise FormatError(
+            f"{file} holds {len(document['labels']):,} labels, and at most {MOST_LABELS:,} are read."
+        )
+    return [_label(one, file, place) for place, one in enumerate(document["labels"], 1)]
+
+
+def read_json(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
+    """Read the labels whose photos are in a folder."""
+    return at_home(read_labels(source), photos, Contents(photos, names.values()))[0]
+
+
+def at_home(
+    labels: Iterable[Label], photos: Path, contents: Contents
+) -> tuple[list[Imported], list[Label]]:
+    """Labels whose photos are in a folder, told by their digests, and those whose are not.
+
+    Raises:
+        FormatError: The line of one does not fit its photo.
+    """
+    found, others = [], []
+    for label in labels:
+        name = contents.name_of(label)
+        if name is None or label.skyline is None:
+            others.append(label)
+        else:
+            line = check_size(name, label.skyline, photos, label.height)
+            found.append(Imported(name, line, label.tags, label))
+    return found, others
+
+
+def _label(said: object, file: Path, place: int) -> Label:
+    name = said.get("name") if isinstance(said, dict) else None
+    shown = f"label {place}" + (f" ({name!r:.200})" if isinstance(name, str) else "")
+    try:
+        told = _Label.model_validate(said)
+        skyline = Skyline(rows=told.skyline.rows, visible=np.array(told.skyline.visible))
+        told.name.encode()
+        return Label(
+            **told.model_dump(exclude={"skyline", "origin", "annotator", "tags", "operations"}),
+            annotator=check_annotator(told.annotator),
+            tags=tuple(told.tags),
+            operations=tuple(told.operations),
+            skyline=skyline,
+            origin=np.array([ORIGINS.index(one) for one in told.origin], np.uint8),
+        )
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_context=False, include_input=False)[0]
+        where = ".".join(map(str, first["loc"]))
+        reason = f"{where}: {first['msg'][:1].lower()}{first['msg'][1:]}" if where else "no object"
+    except UnicodeError:
+        reason = "its name is no text"
+    except (SkylineError, ValueError, OverflowError) as error:
+        reason = str(error)
+    raise FormatError(f"{file}: {shown} is not whole: {reason.rstrip('.')}.")

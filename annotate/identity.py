@@ -1,0 +1,216 @@
+"""What a photo is known by: the bytes of its file, and where those were changed, its pixels.
+
+A file with known bytes is that photo, whatever it is called and wherever it lies. A file whose bytes
+are new is looked into only where a photo with labels and as many pixels has gone from the folder:
+if the pixels are the same, only the metadata was edited, and the labels stay.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import time
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path, PurePosixPath
+
+import numpy as np
+
+from annotate.folder import photos_below
+from skyline_viz.arrays import U8
+from skyline_viz.photo import PhotoError, photo_size, read_photo
+
+_SETTLED = 2_000_000_000  # nanoseconds after which a change would show in the times of a file
+
+
+@dataclass(frozen=True)
+class Photo:
+    """A photo of the folder."""
+
+    id: int
+    name: str
+    """Its file below the folder, with ``/`` between folders."""
+
+    digest: str
+    """SHA-256 of its file, in hexadecimal."""
+
+    width: int
+    height: int
+    pixels: str | None = None
+    """`pixel_digest` of it; None where it has not been read yet."""
+
+
+@dataclass(frozen=True)
+class Stamp:
+    """What tells without reading a file whether it has been written: its size and times."""
+
+    size: int
+    changed: int
+    """When its content was changed, in nanoseconds; programs can set it."""
+
+    touched: int
+    """When its entry was changed, in nanoseconds; only the system sets it."""
+
+    @classmethod
+    def of(cls, status: os.stat_result) -> Stamp:
+        """The stamp of a file."""
+        return cls(status.st_size, status.st_mtime_ns, status.st_ctime_ns)
+
+    @property
+    def settled(self) -> Stamp:
+        """The stamp to keep: one that holds nothing if the file may still change unnoticed."""
+        fresh = max(self.changed, self.touched) > time.time_ns() - _SETTLED
+        return replace(self, touched=0) if fresh else self
+
+
+@dataclass(frozen=True)
+class Known:
+    """A photo as the store knows it."""
+
+    photo: Photo
+    size: int
+    changed: int
+    touched: int | None
+    """As in its `Stamp`; None where an older version has kept it."""
+
+    labelled: bool
+    """Whether there is a label of it."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A photo's file that is in the folder."""
+
+    name: str
+    digest: str
+    width: int
+    height: int
+    stamp: Stamp
+    pixels: str | None = None
+
+
+@lru_cache(maxsize=100_000)
+def _digest_as_of(path: Path, _: Stamp) -> str:
+    return _digest(path)
+
+
+def file_digest(path: Path) -> str:
+    """SHA-256 of a file, in hexadecimal; read again only when its stamp has changed.
+
+    Raises:
+        OSError: It cannot be read.
+    """
+    stamp = Stamp.of(path.stat())
+    return _digest_as_of(path, stamp) if stamp.settled == stamp else _digest(path)
+
+
+def pixel_digest(photo: U8) -> str:
+    """SHA-256 of upright RGB pixels and their shape, in hexadecimal.
+
+    >>> pixel_digest(np.zeros((8, 9, 3), np.uint8)) == pixel_digest(np.zeros((9, 8, 3), np.uint8))
+    False
+    """
+    height, width = photo.shape[:2]
+    digest = hashlib.sha256(f"{width}x{height} RGB\n".encode())
+    digest.update(np.ascontiguousarray(photo).data)
+    return digest.hexdigest()
+
+
+def short(digest: str) -> str:
+    """A digest as sentences name it.
+
+    >>> short("ab12cd34ef56" + 52 * "0")
+    'sha256 ab12cd34ef56...'
+    """
+    return f"sha256 {digest[:12]}..."
+
+
+def scan(folder: Path, known: Sequence[Known]) -> tuple[list[Found], list[str]]:
+    """Photos that are in a folder, in the order of their files; no two with the same bytes.
+
+    Args:
+        folder: The folder.
+        known: What the store knows.
+
+    Returns:
+        The photos, and a sentence for each file that had to be left out.
+    """
+    places = {(one.photo.name, one.size, one.changed): one for one in known}
+    by_digest = {one.photo.digest: one for one in known}
+    found: dict[str, Found] = {}
+    problems = []
+    for path in photos_below(folder):
+        name = path.relative_to(folder).as_posix()
+        try:
+            name.encode()
+            stamp = Stamp.of(path.stat())
+            before = places.get((name, stamp.size, stamp.changed))
+            same = before is not None and before.touched in (None, stamp.touched)
+            digest = before.photo.digest if before and same else file_digest(path)
+            seen = by_digest.get(digest)
+            if seen and seen.labelled:
+                width, height = seen.photo.width, seen.photo.height
+            else:
+                height, width = photo_size(path)
+        except UnicodeEncodeError:
+            problems.append(f"{name!a} has a name that is no text, and is left out.")
+            continue
+        except (OSError, PhotoError) as error:
+            problems.append(f"{name} is left out: {error}")
+            continue
+        if digest in found:
+            problems.append(f"{name} has the same content as {found[digest].name}.")
+            continue
+        pixels = seen.photo.pixels if seen else None
+        found[digest] = Found(name, digest, width, height, stamp.settled, pixels)
+    return looked_into(folder, list(found.values()), known), problems
+
+
+def looked_into(folder: Path, found: list[Found], known: Sequence[Known]) -> list[Found]:
+    """The same photos, with the pixels of those that may be one whose file was changed.
+
+    Nothing is read unless a photo with labels is not there any more.
+    """
+    here = {one.digest for one in found}
+    lost = [one.photo for one in known if one.labelled and one.photo.digest not in here]
+    lost = [one for one in lost if one.pixels]
+    if not lost:
+        return found
+    sizes = {(one.width, one.height) for one in lost}
+    stems = {(one.width, one.height, PurePosixPath(one.name).stem) for one in lost}
+    labels = {one.photo.digest: one.labelled for one in known}
+
+    def looked(one: Found) -> Found:
+        size = (one.width, one.height)
+        new = one.digest not in labels and size in sizes
+        renamed = not labels.get(one.digest, True) and (*size, PurePosixPath(one.name).stem) in stems
+        if one.pixels or not (new or renamed):
+            return one
+        try:
+            return replace(one, pixels=pixel_digest(read_photo(folder / one.name)))
+        except PhotoError:
+            return one  # said when it is opened
+    return [looked(one) for one in found]
+
+
+def changed_files(found: Iterable[Found], known: Sequence[Known]) -> dict[int, Found]:
+    """New files of photos with labels, by the photo's id: other bytes, the same pixels."""
+    found = list(found)
+    here, seen = {one.digest for one in found}, {one.photo.digest for one in known}
+    new: dict[str, list[Found]] = {}
+    for one in found:
+        if one.pixels and one.digest not in seen:
+            new.setdefault(one.pixels, []).append(one)
+    files = {}
+    for one in known:
+        candidates = new.get(one.photo.pixels or "", [])
+        if candidates and one.labelled and one.photo.digest not in here:
+            candidates.sort(key=lambda file: file.name != one.photo.name)
+            files[one.photo.id] = candidates.pop(0)
+    return files
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -1,0 +1,124 @@
+"""The pixels of a photo, read so that they are those of the photo that was labelled, or not at all."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from annotate.identity import Photo, Stamp, file_digest, pixel_digest
+from skyline_viz.arrays import U8
+from skyline_viz.photo import PhotoError, read_photo
+
+if TYPE_CHECKING:
+    from annotate.store import Store
+
+_TRIES = 3  # of reading a file that is being written
+
+
+class ReplacedError(PhotoError):
+    """Where the photo was lies another one; the message is one sentence that says so."""
+
+
+class Opened:
+    """A photo that is open for labelling, and what tells whether its file has been replaced."""
+
+    def __init__(self, store: Store, photo: Photo) -> None:
+        """Read it, and keep what its pixels are known by.
+
+        Raises:
+            ReplacedError: It is another photo now.
+            PhotoError: It has vanished, or cannot be read.
+        """
+        self._store, self._photo = store, photo
+        self.pixels, self._marks = _read(store, photo)
+        """``(H, W, 3)`` uint8 RGB."""
+        self._known = pixel_digest(self.pixels)
+        self._keep()
+
+    def confirm(self) -> None:
+        """Make sure that what lies on the disk is still what is open; cheap while nobody writes it.
+
+        A file that has vanished is no other photo: the label of its pixels goes on.
+
+        Raises:
+            ReplacedError: It is another photo now.
+            PhotoError: It cannot be read any more.
+        """
+        path = self._store.folder / self._photo.name
+        marks = _marks(path)
+        if marks in (None, self._marks):
+            return
+        if pixel_digest(read_photo(path)) != self._known or _marks(path) != marks:
+            raise ReplacedError(
+                f"{self._photo.name} was replaced by another photo while it was open, so nothing "
+                "more is kept for it; open the folder again to label what is there now."
+            )
+        self._marks = marks
+        self._keep()
+
+    def _keep(self) -> None:
+        """Let the store know the pixels, and the bytes of a file whose metadata was edited."""
+        path = self._store.folder / self._photo.name
+        try:
+            digest, stamp = file_digest(path), Stamp.of(path.stat())
+        except OSError:
+            return  # it has just vanished
+        if _marks(path) == self._marks:
+            self._store.keep_file(self._photo, digest, self._known, stamp.settled)
+
+
+def read_whole(store: Store, photo: Photo) -> U8:
+    """Read a photo, and make sure that it is still the one that was labelled.
+
+    Raises:
+        ReplacedError: It is another photo now.
+        PhotoError: It has vanished, or cannot be read.
+    """
+    return _read(store, photo)[0]
+
+
+Marks = tuple[int, ...]
+"""What changes when a file is written or replaced."""
+
+
+def _read(store: Store, photo: Photo) -> tuple[U8, Marks]:
+    path = store.folder / photo.name
+    known = store.photo(photo.id)  # its metadata may have been edited since the folder was read
+    for _ in range(_TRIES):
+        marks = _marks(path)
+        pixels = read_photo(path)
+        digest = file_digest(path)
+        if marks is not None and _marks(path) == marks:
+            break
+    else:
+        raise PhotoError(f"{photo.name} is being written by another program.")
+    height, width = pixels.shape[:2]
+    if (height, width) != (known.height, known.width):
+        raise ReplacedError(
+            f"{photo.name} is another photo now: it was {known.width}x{known.height} pixels, and "
+            f"is {width}x{height}."
+        )
+    if digest != known.digest and pixel_digest(pixels) != known.pixels:
+        raise ReplacedError(
+            f"{photo.name} is another photo now; open the folder again to label what is there."
+        )
+    return pixels, marks
+
+
+def _marks(path: Path) -> Marks | None:
+    """None where there is no file."""
+    try:
+        status = os.stat(path)
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise PhotoError(f"{path} cannot be read: {reason}.") from error
+    return (
+        status.st_dev,
+        status.st_ino,
+        status.st_size,
+        status.st_mtime_ns,
+        status.st_ctime_ns,
+    )

@@ -1,0 +1,107 @@
+"""The table of photos: what the store knows of each, and what it learns when it looks again."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterable, Sequence
+
+from annotate.identity import Found, Known, Photo, Stamp, changed_files
+
+_LABELLED = (
+    "EXISTS (SELECT 1 FROM labels JOIN operations ON operations.label = labels.id"
+    " WHERE labels.photo = photos.id AND kind != 'open')"
+)
+_PHOTO = "photos.id, name, photos.digest, width, height, pixels"
+
+
+def every_photo(database: sqlite3.Connection) -> list[Photo]:
+    """Every photo that was ever seen."""
+    return [Photo(*row) for row in database.execute(f"SELECT {_PHOTO} FROM photos")]
+
+
+def photo_of(database: sqlite3.Connection, photo: int) -> Photo:
+    """A photo by its id."""
+    return Photo(
+        *database.execute(f"SELECT {_PHOTO} FROM photos WHERE id = ?", (photo,)).fetchone()
+    )
+
+
+def known_photos(database: sqlite3.Connection) -> list[Known]:
+    """Every photo that was ever seen, with what tells whether its file has changed."""
+    rows = database.execute(f"SELECT size, changed, touched, {_LABELLED}, {_PHOTO} FROM photos")
+    return [
+        Known(Photo(*photo), size, changed, touched, bool(labelled))
+        for size, changed, touched, labelled, *photo in rows
+    ]
+
+
+def keep_found(
+    database: sqlite3.Connection, found: Sequence[Found], known: Iterable[Known]
+) -> None:
+    """Keep which photos are in the folder.
+
+    Photos whose file has other bytes now, but the same pixels, keep their labels.
+    """
+    changed = changed_files(found, known)
+    for photo, one in changed.items():
+        keep_file(database, photo, one.digest, one.pixels, one.stamp, one.name)
+    taken = {one.digest for one in changed.values()}
+    database.executemany(
+        "INSERT INTO photos (digest, name, width, height, size, changed, touched, pixels)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT (digest) DO UPDATE SET"
+        " name = excluded.name, width = excluded.width, height = excluded.height,"
+        " size = excluded.size, changed = excluded.changed, touched = excluded.touched,"
+        " pixels = coalesce(excluded.pixels, pixels)",
+        [
+            (
+                one.digest,
+                one.name,
+                one.width,
+                one.height,
+                one.stamp.size,
+                one.stamp.changed,
+                one.stamp.touched,
+                one.pixels,
+            )
+            for one in found
+            if one.digest not in taken
+        ],
+    )
+    _follow(database, {one.digest: one.pixels for one in found if one.pixels})
+
+
+def keep_file(
+    database: sqlite3.Connection,
+    photo: int,
+    digest: str,
+    pixels: str | None,
+    stamp: Stamp,
+    name: str,
+) -> None:
+    """Keep what the file of a photo is now; nothing is done where it is that of another photo."""
+    database.execute(
+        "UPDATE OR IGNORE photos SET digest = ?, pixels = ?, size = ?, changed = ?, touched = ?,"
+        " name = ? WHERE id = ?",
+        (digest, pixels, stamp.size, stamp.changed, stamp.touched, name, photo),
+    )
+
+
+def _follow(database: sqlite3.Connection, here: dict[str, str]) -> None:
+    """Give labels whose photo has gone to a photo that is here and has the same pixels.
+
+    Args:
+        database: The labels.
+        here: Pixels of the photos that are here, by the digests of their files.
+    """
+    photos: dict[str, int] = {}
+    lost: list[tuple[int, str]] = []
+    for one in known_photos(database):
+        if one.photo.digest in here:
+            photos.setdefault(here[one.photo.digest], one.photo.id)
+        elif one.labelled and one.photo.pixels:
+            lost.append((one.photo.id, one.photo.pixels))
+    for photo, pixels in lost:
+        if pixels in photos:  # a label of the same pass that is there already stays
+            database.execute(
+                "UPDATE OR IGNORE labels SET photo = ? WHERE photo = ?", (photos[pixels], photo)
+            )
