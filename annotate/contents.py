@@ -47,7 +47,7 @@ class Contents:
         if label.name in self._names and self.are(label.name, label):
             return label.name
         if label.digest and self._by_digest is None:
-            self._by_digest = {self._digest(name): name for name in self._names[::-1]}
+            self._by_digest = {self._digest(name): name for name in reversed(self._names)}
         if label.digest and self._by_digest and label.digest in self._by_digest:
             return self._by_digest[label.digest]
         size = label.height, label.width
