@@ -1,4 +1,4 @@
-"""Which photo of a folder a label was made for: told by what is in the files, not by their names."""
+"""Which photo of a folder a label was made for: told by what is in the files, not by names."""
 
 from __future__ import annotations
 
@@ -17,9 +17,7 @@ class Contents:
     rows as the label.
     """
 
-    def __init__(
-        self, folder: Path, names: Iterable[str], photos: Iterable[Photo] = ()
-    ) -> None:
+    def __init__(self, folder: Path, names: Iterable[str], photos: Iterable[Photo] = ()) -> None:
         """Look at some photos.
 
         Args:

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 
-from skyline_viz.files import flush
+from skyline_viz.files import flush, replacing
 
 NAME = "skyline-labels.sqlite"
 """The file's name, in the folder of the photos."""
@@ -181,6 +181,31 @@ class Place:
             f"{self._path} was moved, removed or replaced while it was open, so nothing is kept "
             "in it any more; put it back where it was, and open the folder again."
         )
+
+
+def backup(folder: Path, path: Path) -> None:
+    """Copy the labels of a folder into a file, also while they are being changed.
+
+    Raises:
+        StoreError: There are none, they are damaged, or the copy cannot be written.
+    """
+    from annotate.snapshot import read_into  # noqa: PLC0415  # which needs this module
+
+    source = folder / NAME
+    if not holds_something(source):
+        raise StoreError(f"{folder} has no labels to back up.")
+    with closing(sqlite3.connect(":memory:")) as labels:
+        read_into(labels, source)
+        version_of(labels, source)
+        with replacing(path) as temporary, sentences(path):
+            write_into(temporary, labels)
+
+
+def write_into(path: Path, labels: sqlite3.Connection) -> None:
+    """Write labels into a single file."""
+    with closing(sqlite3.connect(path)) as copy:
+        labels.backup(copy)
+        copy.execute("PRAGMA journal_mode = DELETE")  # one file, not three
 
 
 @contextmanager

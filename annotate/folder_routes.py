@@ -64,11 +64,12 @@ def export(bench: Bench, format: str) -> Response:  # noqa: A002
     """All accepted labels, as a ZIP file."""
     if format not in FORMATS:
         raise HTTPException(404, f"there is no such format; there are {', '.join(FORMATS)}.")
-    data = archive(bench.accepted(), bench.store.folder, format)
+    found = bench.joined()
+    accepted = [one for one in found.labels if one.status == "accepted"]
+    data = archive(accepted, bench.store.folder, format, found.contents, found.notes)
     name = f'attachment; filename="skylines-{format}.zip"'
     return Response(data, media_type="application/zip", headers={"Content-Disposition": name})
 
 
 def _shown(bench: Workbench, cards: list[Card]) -> list[ShownPhoto]:
-    folder = bench.store.folder
-    return [ShownPhoto.of(one, missing=not (folder / one.photo.name).is_file()) for one in cards]
+    return [ShownPhoto.of(one, missing=not bench.store.is_here(one.photo)) for one in cards]

@@ -1,8 +1,8 @@
 """What a photo is known by: the bytes of its file, and where those were changed, its pixels.
 
-A file with known bytes is that photo, whatever it is called and wherever it lies. A file whose bytes
-are new is looked into only where a photo with labels and as many pixels has gone from the folder:
-if the pixels are the same, only the metadata was edited, and the labels stay.
+A file with known bytes is that photo, whatever it is called and wherever it lies. A file whose
+bytes are new is looked into only where a photo with labels and as many pixels has gone from the
+folder: if the pixels are the same, only the metadata was edited, and the labels stay.
 """
 
 from __future__ import annotations
@@ -58,10 +58,9 @@ class Stamp:
         return cls(status.st_size, status.st_mtime_ns, status.st_ctime_ns)
 
     @property
-    def settled(self) -> Stamp:
-        """The stamp to keep: one that holds nothing if the file may still change unnoticed."""
-        fresh = max(self.changed, self.touched) > time.time_ns() - _SETTLED
-        return replace(self, touched=0) if fresh else self
+    def settled(self) -> bool:
+        """Whether the file is old enough for any change from now on to show in its times."""
+        return max(self.changed, self.touched) < time.time_ns() - _SETTLED
 
 
 @dataclass(frozen=True)
@@ -102,7 +101,7 @@ def file_digest(path: Path) -> str:
         OSError: It cannot be read.
     """
     stamp = Stamp.of(path.stat())
-    return _digest_as_of(path, stamp) if stamp.settled == stamp else _digest(path)
+    return _digest_as_of(path, stamp) if stamp.settled else _digest(path)
 
 
 def pixel_digest(photo: U8) -> str:
@@ -163,7 +162,7 @@ def scan(folder: Path, known: Sequence[Known]) -> tuple[list[Found], list[str]]:
             problems.append(f"{name} has the same content as {found[digest].name}.")
             continue
         pixels = seen.photo.pixels if seen else None
-        found[digest] = Found(name, digest, width, height, stamp.settled, pixels)
+        found[digest] = Found(name, digest, width, height, stamp, pixels)
     return looked_into(folder, list(found.values()), known), problems
 
 
@@ -184,13 +183,15 @@ def looked_into(folder: Path, found: list[Found], known: Sequence[Known]) -> lis
     def looked(one: Found) -> Found:
         size = (one.width, one.height)
         new = one.digest not in labels and size in sizes
-        renamed = not labels.get(one.digest, True) and (*size, PurePosixPath(one.name).stem) in stems
+        alike = (*size, PurePosixPath(one.name).stem) in stems
+        renamed = not labels.get(one.digest, True) and alike  # a copy that took its place
         if one.pixels or not (new or renamed):
             return one
         try:
             return replace(one, pixels=pixel_digest(read_photo(folder / one.name)))
         except PhotoError:
             return one  # said when it is opened
+
     return [looked(one) for one in found]
 
 
@@ -203,11 +204,12 @@ def changed_files(found: Iterable[Found], known: Sequence[Known]) -> dict[int, F
         if one.pixels and one.digest not in seen:
             new.setdefault(one.pixels, []).append(one)
     files = {}
-    for one in known:
-        candidates = new.get(one.photo.pixels or "", [])
-        if candidates and one.labelled and one.photo.digest not in here:
-            candidates.sort(key=lambda file: file.name != one.photo.name)
-            files[one.photo.id] = candidates.pop(0)
+    for before in known:
+        candidates = new.get(before.photo.pixels or "", [])
+        if candidates and before.labelled and before.photo.digest not in here:
+            same_name = [one for one in candidates if one.name == before.photo.name]
+            files[before.photo.id] = (same_name or candidates)[0]
+            candidates.remove(files[before.photo.id])
     return files
 
 

@@ -17,11 +17,17 @@ from typing import Any
 
 from annotate import checkpoints
 from annotate.edits import Edits
+from annotate.labels import STATUSES
 from annotate.lines import Line
 from annotate.log import LogError, State, folded
 from annotate.operations import LOGGED, Logged
+from annotate.readable import reading_label
 
 _KEPT = 8  # states in memory
+_SOUND = (  # a standing that is damaged counts as none
+    f"status IN ({', '.join(map(repr, STATUSES))}) AND typeof(seconds) = 'real'"
+    " AND json_valid(tags) AND json_type(tags) = 'array'"
+)
 
 
 class StaleError(ValueError):
@@ -170,7 +176,8 @@ def keep(database: sqlite3.Connection, label: int, state: State, *, checkpoint: 
 def missing(database: sqlite3.Connection) -> list[int]:
     """Labels that have a log and no standing."""
     rows = database.execute(
-        "SELECT id FROM labels WHERE id NOT IN (SELECT label FROM standings)"
+        f"SELECT id FROM labels WHERE id NOT IN (SELECT label FROM standings WHERE {_SOUND})"  # noqa: S608
+        " AND id NOT IN (SELECT label FROM set_aside)"
         " AND EXISTS (SELECT 1 FROM operations WHERE label = labels.id)"
     )
     return [int(row[0]) for row in rows]
@@ -181,7 +188,8 @@ def renew(database: sqlite3.Connection, labels: list[int]) -> dict[int, str]:
     problems = {}
     for label in labels:
         try:
-            state = _read(database, label)
+            with reading_label(database, label):
+                state = _read(database, label)
         except LogError as error:
             problems[label] = str(error)
             continue
@@ -194,8 +202,8 @@ def standings(
 ) -> Iterator[tuple[int, Standing]]:
     """Labels of a pass that have been worked on, and where they stand."""
     for label, status, tags, seconds in database.execute(
-        "SELECT label, status, tags, seconds FROM standings JOIN labels ON labels.id = label"
-        " WHERE annotator = ? AND number = ?",
+        "SELECT label, status, tags, seconds FROM standings JOIN labels ON labels.id = label"  # noqa: S608
+        f" WHERE annotator = ? AND number = ? AND {_SOUND}",
         (annotator, number),
     ):
         yield int(label), Standing(status, tuple(json.loads(tags)), seconds)

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from annotate.identity import Photo
 from annotate.labels import Label
 from annotate.messages import Learning
-from annotate.session import read_whole
+from annotate.opened import read_whole
 from annotate.workbench import Workbench
 from skyline_viz.config import TrainingConfig
 from skyline_viz.detector import Detector
@@ -58,15 +59,15 @@ class Learner:
 
     def _learn(self) -> Learning:
         bench = self._bench
-        present = {
-            photo.digest
-            for photo in bench.photos.values()
-            if (bench.store.folder / photo.name).is_file()
-        }
+        joined = bench.joined()
+        photos = {photo.digest: photo for photo in joined.photos if photo.id in bench.photos}
         labels = [
             one
-            for one in bench.accepted()
-            if one.digest in present and one.skyline and one.skyline.visible.any()
+            for one in joined.labels
+            if one.digest in photos
+            and one.status == "accepted"
+            and one.skyline
+            and one.skyline.visible.any()
         ]
         if len(labels) < LEAST:
             found = len(labels)
@@ -79,16 +80,15 @@ class Learner:
             )
             return Learning(state="failed", detail=detail, changed=0)
         config = TrainingConfig(detector=proposes.config)
-        photos = {photo.digest: photo for photo in bench.photos.values()}
         halves = [GramMatrices.empty(config), GramMatrices.empty(config)]
         for number, label in enumerate(labels):
-            pixels = read_whole(bench.store.folder, photos[label.digest])
+            pixels = read_whole(bench.store, photos[label.digest])
             assert label.skyline is not None
             halves[number % 2] += gather(pixels, label.skyline, _SEED, config)
         name = bench.store.folder.resolve().name
-        before = self._error(labels, [proposes] * 2)
+        before = self._error(labels, photos, [proposes] * 2)
         learned = [Detector(solve(one, _SEED, config, name), config.detector) for one in halves]
-        after = self._error(labels, learned[::-1])  # each on the photos of the other
+        after = self._error(labels, photos, learned[::-1])  # each on the photos of the other
         says = f"A_err {after:.2f} px on accepted photos it has not seen, now {before:.2f} px"
         if after >= before:
             detail = f"the bank stays as it is: one learned from {len(labels)} photos has {says}."
@@ -98,12 +98,13 @@ class Learner:
         detail = f"learned from {len(labels)} photos: {says}; {changed} photos have new proposals."
         return Learning(state="done", detail=detail, changed=changed)
 
-    def _error(self, labels: Sequence[Label], detectors: Sequence[Detector]) -> float:
+    def _error(
+        self, labels: Sequence[Label], photos: dict[str, Photo], detectors: Sequence[Detector]
+    ) -> float:
         """Mean A_err of the accepted photos, each by the detector of its half."""
-        photos = {photo.digest: photo for photo in self._bench.photos.values()}
         errors = []
         for number, label in enumerate(labels):
-            pixels = read_whole(self._bench.store.folder, photos[label.digest])
+            pixels = read_whole(self._bench.store, photos[label.digest])
             assert label.skyline is not None
             found = detectors[number % 2].detect(pixels).skyline
             errors.append(a_err(found, label.skyline))

@@ -8,7 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from annotate.labels import ORIGINS
 from skyline_viz.skyline import Skyline
+
+
+class LineError(ValueError):
+    """Bytes are no line; the message says why."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,13 +37,23 @@ class Line:
     def unpacked(cls, data: bytes) -> Line:
         """Read what `packed` gave.
 
+        Raises:
+            LineError: It is damaged.
+
         >>> line = Line(Skyline(rows=[3, 4, 9]), np.array([0, 1, 1], np.uint8))
         >>> Line.unpacked(line.packed()).skyline == line.skyline
         True
         """
-        whole = zlib.decompress(data)
-        width = len(whole) // 6
+        try:
+            whole = zlib.decompress(data)
+        except (zlib.error, TypeError) as error:
+            raise LineError("its line is damaged.") from error
+        width, rest = divmod(len(whole), 6)
+        if rest or not width:
+            raise LineError("its line is damaged.")
         rows = np.cumsum(np.frombuffer(whole, "<i4", width))
         visible = np.frombuffer(whole, np.uint8, width, 4 * width).astype(np.bool_)
         origin = np.frombuffer(whole, np.uint8, width, 5 * width)
+        if origin.max() >= len(ORIGINS):
+            raise LineError("its line is damaged.")
         return cls(Skyline(rows=rows.astype(np.float32), visible=visible), origin)

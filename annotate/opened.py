@@ -1,8 +1,8 @@
-"""The pixels of a photo, read so that they are those of the photo that was labelled, or not at all."""
+"""The pixels of a photo: those of the photo that was labelled, or none."""
 
 from __future__ import annotations
 
-import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -65,7 +65,7 @@ class Opened:
         except OSError:
             return  # it has just vanished
         if _marks(path) == self._marks:
-            self._store.keep_file(self._photo, digest, self._known, stamp.settled)
+            self._store.keep_file(self._photo, digest, self._known, stamp)
 
 
 def read_whole(store: Store, photo: Photo) -> U8:
@@ -76,6 +76,34 @@ def read_whole(store: Store, photo: Photo) -> U8:
         PhotoError: It has vanished, or cannot be read.
     """
     return _read(store, photo)[0]
+
+
+class Present:
+    """Whether photos are still in their folder: a look at the file, while nobody has written it."""
+
+    def __init__(self) -> None:
+        """Nothing has been found yet."""
+        self._here: dict[int, tuple[Stamp, bool]] = {}
+
+    def found(self, stamps: Mapping[int, Stamp]) -> None:
+        """Remember the files of photos that have just been found, by the photos' ids."""
+        self._here = {photo: (stamp, True) for photo, stamp in stamps.items()}
+
+    def holds(self, store: Store, photo: Photo) -> bool:
+        """Whether a photo is there, and not another one under its name."""
+        path = store.folder / photo.name
+        try:
+            stamp = Stamp.of(path.stat())
+            before = self._here.get(photo.id)
+            if before is None or before[0] != stamp:
+                known = store.photo(photo.id)
+                same = file_digest(path) == known.digest or (
+                    known.pixels is not None and pixel_digest(read_photo(path)) == known.pixels
+                )
+                before = self._here[photo.id] = stamp, same
+        except (OSError, PhotoError):
+            return False
+        return before[1]
 
 
 Marks = tuple[int, ...]
@@ -94,7 +122,13 @@ def _read(store: Store, photo: Photo) -> tuple[U8, Marks]:
     else:
         raise PhotoError(f"{photo.name} is being written by another program.")
     height, width = pixels.shape[:2]
-    if (height, width) != (known.height, known.width):
+    same = (height, width) == (known.height, known.width)
+    if not same and digest == known.digest:
+        raise PhotoError(
+            f"{photo.name} was labelled as a photo of {known.width}x{known.height} pixels, and "
+            f"this version of the program reads it as one of {width}x{height}."
+        )
+    if not same:
         raise ReplacedError(
             f"{photo.name} is another photo now: it was {known.width}x{known.height} pixels, and "
             f"is {width}x{height}."
@@ -109,7 +143,7 @@ def _read(store: Store, photo: Photo) -> tuple[U8, Marks]:
 def _marks(path: Path) -> Marks | None:
     """None where there is no file."""
     try:
-        status = os.stat(path)
+        status = path.stat()
     except FileNotFoundError:
         return None
     except OSError as error:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from annotate.identity import Found, Known, Photo, Stamp, changed_files
 
@@ -16,19 +16,19 @@ _PHOTO = "photos.id, name, photos.digest, width, height, pixels"
 
 def every_photo(database: sqlite3.Connection) -> list[Photo]:
     """Every photo that was ever seen."""
-    return [Photo(*row) for row in database.execute(f"SELECT {_PHOTO} FROM photos")]
+    return [Photo(*row) for row in database.execute(f"SELECT {_PHOTO} FROM photos")]  # noqa: S608
 
 
 def photo_of(database: sqlite3.Connection, photo: int) -> Photo:
     """A photo by its id."""
     return Photo(
-        *database.execute(f"SELECT {_PHOTO} FROM photos WHERE id = ?", (photo,)).fetchone()
+        *database.execute(f"SELECT {_PHOTO} FROM photos WHERE id = ?", (photo,)).fetchone()  # noqa: S608
     )
 
 
 def known_photos(database: sqlite3.Connection) -> list[Known]:
     """Every photo that was ever seen, with what tells whether its file has changed."""
-    rows = database.execute(f"SELECT size, changed, touched, {_LABELLED}, {_PHOTO} FROM photos")
+    rows = database.execute(f"SELECT size, changed, touched, {_LABELLED}, {_PHOTO} FROM photos")  # noqa: S608
     return [
         Known(Photo(*photo), size, changed, touched, bool(labelled))
         for size, changed, touched, labelled, *photo in rows
@@ -36,7 +36,7 @@ def known_photos(database: sqlite3.Connection) -> list[Known]:
 
 
 def keep_found(
-    database: sqlite3.Connection, found: Sequence[Found], known: Iterable[Known]
+    database: sqlite3.Connection, found: Sequence[Found], known: Sequence[Known]
 ) -> None:
     """Keep which photos are in the folder.
 
@@ -58,9 +58,7 @@ def keep_found(
                 one.name,
                 one.width,
                 one.height,
-                one.stamp.size,
-                one.stamp.changed,
-                one.stamp.touched,
+                *_stamp(one.stamp),
                 one.pixels,
             )
             for one in found
@@ -82,7 +80,7 @@ def keep_file(
     database.execute(
         "UPDATE OR IGNORE photos SET digest = ?, pixels = ?, size = ?, changed = ?, touched = ?,"
         " name = ? WHERE id = ?",
-        (digest, pixels, stamp.size, stamp.changed, stamp.touched, name, photo),
+        (digest, pixels, *_stamp(stamp), name, photo),
     )
 
 
@@ -105,3 +103,8 @@ def _follow(database: sqlite3.Connection, here: dict[str, str]) -> None:
             database.execute(
                 "UPDATE OR IGNORE labels SET photo = ? WHERE photo = ?", (photos[pixels], photo)
             )
+
+
+def _stamp(stamp: Stamp) -> tuple[int, int, int]:
+    """What is kept of a stamp: one that fits nothing where the file may still change unnoticed."""
+    return stamp.size, stamp.changed, stamp.touched if stamp.settled else 0

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import threading
-from pathlib import Path
-
-import numpy as np
 
 from annotate.edits import EditError, Edits
 from annotate.kept_states import Request, StaleError
 from annotate.lines import Line
 from annotate.live_wire import LiveWire
+from annotate.opened import Opened
 from annotate.operations import Logged, Open, Operation, Redo, SetStatus, SetTag, Undo
 from annotate.store import Photo, Store
 from skyline_viz.arrays import U8
 from skyline_viz.constraints import PathError
 from skyline_viz.methods.protocol import Method
-from skyline_viz.photo import PhotoError, read_photo
 from skyline_viz.verdict import Verdict
 
 
@@ -41,8 +38,8 @@ class Session:
         self.photo, self.label, self.blind = photo, label, blind
         self.lock = threading.RLock()
         self._store = store
-        self._file = _identity(store.folder, photo)
-        self.pixels: U8 = read_whole(store.folder, photo)
+        self._opened = Opened(store, photo)
+        self.pixels: U8 = self._opened.pixels
         kept = store.detector(label)
         self.detector = kept if kept and store.state(label).revision else detector
         self.wire = LiveWire(self.pixels, None if blind else self.detector)
@@ -77,7 +74,7 @@ class Session:
             kept = self._store.known(asked)
             if kept is not None:
                 return kept
-            self._require_same_photo()
+            self._opened.confirm()
             if isinstance(operation, SetTag | SetStatus | Open):
                 return self._append(asked, None)
             return self._edit(operation.on(self.wire.edits), asked)
@@ -101,7 +98,7 @@ class Session:
             kept = self._store.known(asked)
             if kept is not None:
                 return kept
-            self._require_same_photo()
+            self._opened.confirm()
             state = self.state
             if not (state.steps if isinstance(operation, Undo) else state.taken):
                 raise EditError(f"there is nothing to {operation.kind}.")
@@ -134,19 +131,6 @@ class Session:
         body = operation.model_dump(mode="json", by_alias=True, exclude={"kind"})
         return Request(self.label, revision, operation.kind, body, known_by)
 
-    def _require_same_photo(self) -> None:
-        """Make sure that the file still holds the pixels on which somebody works.
-
-        Raises:
-            PhotoError: It does not, or is gone.
-        """
-        found = _identity(self._store.folder, self.photo)
-        if found == self._file:
-            return
-        if not np.array_equal(read_whole(self._store.folder, self.photo), self.pixels):
-            raise PhotoError(f"{self.photo.name} has been replaced by another photo meanwhile.")
-        self._file = found  # only touched, or its metadata changed
-
     def _kept_line(self) -> Line | None:
         return None if self.wire.empty else self._line()
 
@@ -168,27 +152,3 @@ class Session:
             self.wire.edits = Edits(self.photo.height, self.photo.width).draw(0, rows)
             for first, last in state.edits.hidden:
                 self.wire.hide(first, last)
-
-
-def read_whole(folder: Path, photo: Photo) -> U8:
-    """Read a photo, and make sure that it is still the one that was labelled.
-
-    Raises:
-        PhotoError: It has vanished, cannot be read, or has another size.
-    """
-    pixels = read_photo(folder / photo.name)
-    if pixels.shape[:2] != (photo.height, photo.width):
-        raise PhotoError(
-            f"{photo.name} is another photo now: it was {photo.width}x{photo.height} pixels, and "
-            f"is {pixels.shape[1]}x{pixels.shape[0]}."
-        )
-    return pixels
-
-
-def _identity(folder: Path, photo: Photo) -> tuple[int, int, int]:
-    """What changes when a photo's file is replaced or rewritten: size, time of change, inode."""
-    try:
-        status = (folder / photo.name).stat()
-    except OSError as error:
-        raise PhotoError(f"{photo.name} cannot be read any more: {error.strerror}.") from error
-    return status.st_size, status.st_mtime_ns, status.st_ino

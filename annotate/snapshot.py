@@ -22,7 +22,6 @@ from annotate.database import (
     sentences,
     version_of,
 )
-from skyline_viz.files import replacing
 
 _TRIES = 3  # of reading a file that nobody seems to write
 
@@ -49,24 +48,6 @@ def snapshot(folder: Path) -> sqlite3.Connection:
     return copy
 
 
-def backup(folder: Path, path: Path) -> None:
-    """Copy the labels of a folder into a file, also while they are being changed.
-
-    Raises:
-        StoreError: There are none, they are damaged, or the copy cannot be written.
-    """
-    source = folder / NAME
-    if not holds_something(source):
-        raise StoreError(f"{folder} has no labels to back up.")
-    with closing(sqlite3.connect(":memory:")) as labels:
-        read_into(labels, source)
-        version_of(labels, source)
-        with replacing(path) as temporary, sentences(path):
-            with closing(sqlite3.connect(temporary)) as copy:
-                labels.backup(copy)
-                copy.execute("PRAGMA journal_mode = DELETE")  # one file, not three
-
-
 def read_into(copy: sqlite3.Connection, path: Path) -> None:
     """Copy a file of labels into an empty database, writing nothing beside the file.
 
@@ -85,7 +66,7 @@ def read_into(copy: sqlite3.Connection, path: Path) -> None:
         with sentences(path):
             _copy(copy, path, "immutable=1")
         if not _journals(path) and _written(path) == before:
-            return  # nobody has begun to write meanwhile
+            return None  # nobody has begun to write meanwhile
     if not _journals(path) or path.with_name(f"{path.name}-shm").exists():
         with suppress(sqlite3.OperationalError):  # what a journal needs cannot be made here
             return _copy(copy, path, "mode=ro")

@@ -1,27 +1,23 @@
 """The labels of a folder: photos, and the log of what was done to each, which only grows.
 
-A photo is known by the SHA-256 of its file, so a folder that was moved or renamed finds its labels.
-A label is one pass of one annotator over a photo. Its state follows from its log, and is kept
-beside it (`kept_states`).
+A photo is known by its content (`identity`), so a folder that was moved finds its labels. A label
+is one pass of one annotator over a photo. Its state follows from its log, and is kept beside it
+(`kept_states`).
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
 import sqlite3
 import threading
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import time
 from typing import Any
 
-import numpy as np
-
-from annotate.database import NAME, connect, sentences
-from annotate.folder import photos_below
+from annotate.database import NAME, Place, connect, sentences, shown
+from annotate.identity import Photo, Stamp, pixel_digest, scan
 from annotate.kept_detectors import pack, unpack
 from annotate.kept_states import (
     KeptStates,
@@ -36,26 +32,18 @@ from annotate.kept_states import (
     revision,
     standings,
 )
+from annotate.label_table import Log, begin, insert, labels_of, whole_label
 from annotate.labels import Label
 from annotate.lines import Line
-from annotate.log import State
+from annotate.log import LogError, State
+from annotate.opened import Present, read_whole
+from annotate.photo_table import every_photo, keep_file, keep_found, known_photos, photo_of
+from annotate.readable import reading_label
+from annotate.snapshot import snapshot
 from skyline_viz.methods.protocol import Method
-from skyline_viz.photo import PhotoError, photo_size
+from skyline_viz.photo import PhotoError
 
 __all__ = ["Card", "Photo", "StaleError", "State", "Store"]
-
-
-@dataclass(frozen=True)
-class Photo:
-    """A photo of the folder."""
-
-    id: int
-    name: str
-    """Its file below the folder, with ``/`` between folders."""
-
-    digest: str
-    width: int
-    height: int
 
 
 @dataclass(frozen=True)
@@ -80,18 +68,27 @@ class Card:
 class Store:
     """The labels of a folder of photos, open for reading and writing."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, *, reading: bool = False) -> None:
         """Open them, and begin where there are none.
+
+        Args:
+            folder: The folder.
+            reading: Whether they are only read: nothing is written then, so it works in every
+                folder, and what is read is how they are now.
 
         Raises:
             StoreError: They cannot be opened; the message says why.
         """
         self.folder = folder
         self._lock = threading.RLock()
-        self._connection = connect(folder)
+        self._connection = snapshot(folder) if reading else connect(folder)
+        self._place = None if reading else Place(folder / NAME)
         self._states = KeptStates()
+        self._present = Present()
         self.problems: list[str] = []
         """A sentence for each file that `find` had to leave out."""
+        self.unreadable: list[str] = []
+        """A sentence for each label that `labels` had to leave out."""
 
     def close(self) -> None:
         """Close the file."""
@@ -102,63 +99,65 @@ class Store:
         """Photos that are in the folder now, by name; new ones are added to the store.
 
         Two files with the same content are one photo. Files that cannot be read are left out.
+        Labels follow a photo that was renamed, or whose metadata was edited.
         """
         with self._reading() as database:
-            known = {
-                row[0]: row[1:]
-                for row in database.execute("SELECT name, size, changed, digest FROM photos")
-            }
-        found: dict[str, tuple[str, int, int, int, int]] = {}
-        problems = []
-        for path in photos_below(self.folder):
-            name = path.relative_to(self.folder).as_posix()
-            try:
-                name.encode()
-                status = path.stat()
-                size, changed = status.st_size, status.st_mtime_ns
-                before = known.get(name)
-                same = before is not None and before[:2] == (size, changed)
-                digest = before[2] if before and same else _digest(path)
-                height, width = photo_size(path)
-            except UnicodeEncodeError:
-                problems.append(f"{name!a} has a name that is no text, and is left out.")
-                continue
-            except (OSError, PhotoError) as error:
-                problems.append(f"{name} is left out: {error}")
-                continue
-            if digest in found:
-                problems.append(f"{name} has the same content as {found[digest][0]}.")
-            found.setdefault(digest, (name, width, height, size, changed))
-        self.problems = problems
+            known = known_photos(database)
+        found, self.problems = scan(self.folder, known)
         with self._writing() as database:
-            database.executemany(
-                "INSERT INTO photos (digest, name, width, height, size, changed)"
-                " VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT (digest) DO UPDATE SET"
-                " name = excluded.name, size = excluded.size, changed = excluded.changed",
-                [(digest, *values) for digest, values in found.items()],
-            )
-        photos = [photo for photo in self.photos() if photo.digest in found]
-        return sorted(photos, key=lambda photo: photo.name)
+            keep_found(database, found, known)
+        self._read_pixels({one.digest for one in found})
+        here = {one.digest: one.stamp for one in found}
+        photos = [photo for photo in self.photos() if photo.digest in here]
+        self._present.found({photo.id: here[photo.digest] for photo in photos})
+        return photos
+
+    def is_here(self, photo: Photo) -> bool:
+        """Whether a photo is still in the folder, and not another one under its name."""
+        return self._present.holds(self, photo)
 
     def photos(self) -> list[Photo]:
         """Every photo that was ever seen, by name."""
         with self._reading() as database:
-            rows = database.execute("SELECT id, name, digest, width, height FROM photos")
-            return sorted((Photo(*row) for row in rows), key=lambda photo: photo.name)
+            return sorted(every_photo(database), key=lambda photo: photo.name)
+
+    def photo(self, photo: int) -> Photo:
+        """What is known of a photo now, by its id."""
+        with self._reading() as database:
+            return photo_of(database, photo)
+
+    def keep_file(self, photo: Photo, digest: str, pixels: str, stamp: Stamp) -> None:
+        """Keep what the file of a photo is now, whose pixels are the same.
+
+        Raises:
+            StoreError: It cannot be kept.
+        """
+        before = self.photo(photo.id)
+        if (before.digest, before.pixels, before.name) != (digest, pixels, photo.name):
+            with self._writing() as database:
+                keep_file(database, photo.id, digest, pixels, stamp, photo.name)
+
+    def _read_pixels(self, here: set[str]) -> None:
+        """Read the pixels of photos with labels, once, so that their metadata may be edited."""
+        if self._place is None:
+            return  # it would be forgotten
+        with self._reading() as database:
+            known = [one for one in known_photos(database) if one.labelled]
+        for one in known:
+            photo = one.photo
+            if photo.pixels or photo.digest not in here:
+                continue
+            with suppress(PhotoError, OSError):  # said when it is opened
+                pixels = pixel_digest(read_whole(self, photo))
+                with self._writing() as database:
+                    database.execute(
+                        "UPDATE photos SET pixels = ? WHERE id = ?", (pixels, photo.id)
+                    )
 
     def begin(self, photo: int, annotator: str, number: int, *, blind: bool = False) -> int:
         """Id of a label, which is made where there is none."""
         with self._writing() as database:
-            database.execute(
-                "INSERT OR IGNORE INTO labels (photo, annotator, number, blind)"
-                " VALUES (?, ?, ?, ?)",
-                (photo, annotator, number, blind),
-            )
-            row = database.execute(
-                "SELECT id FROM labels WHERE photo = ? AND annotator = ? AND number = ?",
-                (photo, annotator, number),
-            ).fetchone()
-            return int(row[0])
+            return begin(database, photo, annotator, number, blind=blind)
 
     def is_blind(self, label: int) -> bool:
         """Whether a label is made without a proposal."""
@@ -184,16 +183,21 @@ class Store:
             )
 
     def detector(self, label: int) -> Method | None:
-        """The detector that made the proposal of a label; None where there is no proposal."""
+        """The detector that made the proposal of a label; None where there is no proposal.
+
+        Raises:
+            LogError: It is damaged.
+        """
         with self._reading() as database:
             row = database.execute(
                 "SELECT config, bank FROM detectors"
                 " WHERE id = (SELECT detector FROM labels WHERE id = ?)",
                 (label,),
             ).fetchone()
-        if row is None:
-            return None
-        return unpack(*row)
+            if row is None:
+                return None
+            with reading_label(database, label):
+                return unpack(*row)
 
     def append(
         self,
@@ -227,7 +231,9 @@ class Store:
             before = known(database, asked)
             if before is not None:
                 return before
-            state = add(database, asked, self._states.read(database, label), time(), line)
+            with reading_label(database, label):
+                before_it = self._states.read(database, label)
+            state = add(database, asked, before_it, time(), line)
         self._states.remember(label, state)
         return state.revision
 
@@ -240,29 +246,14 @@ class Store:
         with self._reading() as database:
             return known(database, asked)
 
-    def insert(
-        self, label: int, log: Iterable[tuple[float, str, dict[str, Any]]], line: Line
-    ) -> None:
-        """Give a label that nobody has worked on a log from elsewhere, and the line at its end.
+    def insert(self, logs: Iterable[Log]) -> list[Log]:
+        """Add labels from elsewhere, all of them at once or none.
 
-        Args:
-            label: The label.
-            log: Time, kind and body of each operation, oldest first.
-            line: The line.
-
-        Raises:
-            StaleError: Somebody has worked on it.
+        Returns:
+            Those on which somebody has worked already; they stay as they are.
         """
-        rows = [(label, at, kind, _json(kind, body), None) for at, kind, body in log]
         with self._writing() as database:
-            if now := revision(database, label):
-                raise StaleError("the photo has been worked on, so nothing is imported.", now)
-            for number, row in enumerate(rows, 1):
-                whole = (*row[:-1], line.packed()) if number == len(rows) else row
-                database.execute(
-                    "INSERT INTO operations (label, at, kind, body, line) VALUES (?, ?, ?, ?, ?)",
-                    whole,
-                )
+            return [log for log in logs if not insert(database, log)]
 
     def state(self, label: int) -> State:
         """Where a label stands.
@@ -270,13 +261,17 @@ class Store:
         Raises:
             LogError: Its log cannot be read.
         """
-        with self._reading() as database:
+        with self._reading() as database, reading_label(database, label):
             state = self._states.read(database, label)
             return state if state.revision else replace(state, line=last_line(database, label))
 
     def line(self, label: int) -> Line | None:
-        """The line of a label as it was acknowledged; None where there is none."""
-        with self._reading() as database:
+        """The line of a label as it was acknowledged; None where there is none.
+
+        Raises:
+            LogError: It cannot be read.
+        """
+        with self._reading() as database, reading_label(database, label):
             return last_line(database, label)
 
     def cards(self, annotator: str, number: int) -> dict[int, Card]:
@@ -304,49 +299,39 @@ class Store:
         """Annotators and their passes, by name."""
         with self._reading() as database:
             return list(
-                database.execute("SELECT DISTINCT annotator, number FROM labels ORDER BY 1, 2")
+                database.execute(
+                    "SELECT DISTINCT annotator, number FROM labels"
+                    " WHERE id NOT IN (SELECT label FROM set_aside) ORDER BY 1, 2"
+                )
             )
+
+    def set_aside(self) -> list[str]:
+        """A sentence for each label that `repair` has set aside."""
+        with self._reading() as database:
+            rows = database.execute("SELECT reason FROM set_aside ORDER BY label")
+            return [f"set aside: {shown(str(row[0]))}" for row in rows]
 
     def labels(self, annotator: str | None = None, number: int | None = None) -> Iterator[Label]:
         """Labels with all that is known about them, by the name of the photo.
+
+        Labels that cannot be read are left out, and told in `unreadable`.
 
         Args:
             annotator: Only theirs.
             number: Only of this pass.
         """
+        self.unreadable = []
         with self._reading() as database:
-            rows = database.execute(
-                "SELECT labels.id, name, photos.digest, width, height, annotator, number, blind,"
-                " coalesce(about, '') FROM labels JOIN photos ON photos.id = photo"
-                " LEFT JOIN detectors ON detectors.id = detector"
-                " WHERE annotator = coalesce(?, annotator) AND number = coalesce(?, number)"
-                " ORDER BY name, annotator, number",
-                (annotator, number),
-            ).fetchall()
-        for label, name, digest, width, height, who, which, blind, about in rows:
-            state = self.state(label)
-            with self._reading() as database:
-                log = database.execute(
-                    "SELECT at, kind, body FROM operations WHERE label = ? ORDER BY id", (label,)
-                ).fetchall()
-            yield Label(
-                name=name,
-                digest=digest,
-                width=width,
-                height=height,
-                annotator=who,
-                number=which,
-                status=state.status,
-                tags=state.tags,
-                skyline=state.line.skyline if state.line else None,
-                origin=state.line.origin if state.line else np.zeros(width, np.uint8),
-                operations=tuple(
-                    {**json.loads(body), "kind": kind, "at": at} for at, kind, body in log
-                ),
-                seconds=state.seconds,
-                detector=about,
-                blind=bool(blind),
-            )
+            labels = labels_of(database, annotator, number)
+        for label in labels:
+            try:
+                state = self.state(label)
+                with self._reading() as database, reading_label(database, label):
+                    found = whole_label(database, label, state)
+            except LogError as error:
+                self.unreadable.append(str(error))
+            else:
+                yield found
 
     def _complete(self) -> dict[int, str]:
         """Make standings that are missing; return why some labels have none, by their id."""
@@ -365,6 +350,7 @@ class Store:
     @contextmanager
     def _writing(self) -> Iterator[sqlite3.Connection]:
         with self._lock, sentences(self.folder / NAME):
+            self._confirm_place()
             self._connection.execute("BEGIN IMMEDIATE")
             try:
                 yield self._connection
@@ -373,10 +359,11 @@ class Store:
                 if self._connection.in_transaction:
                     self._connection.execute("ROLLBACK")
                 raise
+            self._confirm_place()  # else it was kept where nobody will find it
 
-
-def _json(kind: str, body: dict[str, Any]) -> str:
-    return json.dumps({**body, "kind": kind})
+    def _confirm_place(self) -> None:
+        if self._place:
+            self._place.confirm()
 
 
 def _keep_detector(database: sqlite3.Connection, detector: Method) -> int:
@@ -388,8 +375,3 @@ def _keep_detector(database: sqlite3.Connection, detector: Method) -> int:
     )
     row = database.execute("SELECT id FROM detectors WHERE digest = ?", (kept.digest,)).fetchone()
     return int(row[0])
-
-
-def _digest(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -12,8 +12,9 @@ import numpy as np
 
 from annotate import images
 from annotate.doubts import columns_of
-from annotate.labels import Label
-from annotate.session import Session, read_whole
+from annotate.joined import Joined, joined
+from annotate.opened import read_whole
+from annotate.session import Session
 from annotate.store import Card, Photo, Store
 from skyline_viz.detection import Detection
 from skyline_viz.methods.protocol import Method
@@ -212,16 +213,15 @@ class Workbench:
             self._detection = (photo, id(session.detector), found)
         return found
 
-    def accepted(self) -> list[Label]:
-        """Accepted labels of this pass."""
+    def joined(self) -> Joined:
+        """Labels of this pass, joined to the photos that are in the folder now."""
         who = self.assignment
-        labels = self.store.labels(who.annotator, who.number)
-        return [label for label in labels if label.status == "accepted"]
+        return joined(self.store, who.annotator, who.number)
 
     def thumbnail(self, photo: int) -> bytes:
         """A small picture of a photo, as JPEG."""
         if photo not in self._thumbnails:
-            pixels = read_whole(self.store.folder, self.photo(photo))
+            pixels = read_whole(self.store, self.photo(photo))
             self._thumbnails[photo] = images.thumbnail(pixels)
         return self._thumbnails[photo]
 
@@ -238,7 +238,7 @@ class Workbench:
             session = self.session(photo)
             with session.lock:
                 return images.strip(session.pixels, session.wire.skyline, width)
-        pixels = read_whole(self.store.folder, self.photo(photo))
+        pixels = read_whole(self.store, self.photo(photo))
         return images.strip(pixels, line.skyline, width)
 
     def _future(self, photo: int) -> tuple[Future[Session], bool]:

@@ -32,10 +32,15 @@ def whoever(name: str) -> str:
     """An annotator's name, or that of the user.
 
     Raises:
-        UsageError: There is none.
+        UsageError: There is none, or it is none that can be kept.
     """
+    from annotate.labels import check_annotator  # noqa: PLC0415
+
     if name.strip():
-        return name.strip()
+        try:
+            return check_annotator(name.strip())
+        except ValueError as error:
+            raise UsageError(str(error)) from None
     try:
         return getpass.getuser()
     except (OSError, KeyError, ImportError):
@@ -56,7 +61,7 @@ def check_folder(folder: Path) -> Path:
 
 @contextmanager
 def opened(folder: Path) -> Iterator[Store]:
-    """The labels of a folder that has some.
+    """The labels of a folder that has some, to be read.
 
     Raises:
         UsageError: There is no such folder, or it has no labels.
@@ -67,7 +72,7 @@ def opened(folder: Path) -> Iterator[Store]:
 
     if not (check_folder(folder) / NAME).is_file():
         raise UsageError(f"{folder} has no labels yet; make some: {PROGRAM} open {folder}.")
-    store = Store(folder)
+    store = Store(folder, reading=True)
     try:
         yield store
     finally:

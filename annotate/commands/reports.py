@@ -9,10 +9,10 @@ from typing import Annotated
 
 import tyro
 
-from annotate.commands.options import PhotoFolder, opened
+from annotate.commands.options import PROGRAM, PhotoFolder, opened
 from annotate.labels import STATUSES
-from skyline_viz.commands.messages import GOOD, UsageError, counted
-from skyline_viz.commands.settings import check_picture
+from skyline_viz.commands.messages import GOOD, UsageError, counted, say
+from skyline_viz.commands.settings import Switch, check_picture
 
 
 @dataclass(frozen=True)
@@ -22,20 +22,28 @@ class Status:
     folder: PhotoFolder
     """Folder of the photos."""
 
+    orphans: Switch = False
+    """List the labels whose photos are not in the folder any more, with the photos' digests."""
+
     def run(self) -> int:
         """Print a table; return the exit status."""
         from rich.console import Console  # noqa: PLC0415
         from rich.table import Table  # noqa: PLC0415
 
+        from annotate.database import shown  # noqa: PLC0415
+        from annotate.joined import gone, joined  # noqa: PLC0415
+
         with opened(self.folder) as store:
-            present = {photo.id for photo in store.find()}
+            found = joined(store)
+            present = {photo.id for photo in found.photos}
             passes = [(who, number, store.cards(who, number)) for who, number in store.passes()]
+            aside = store.set_aside()
         table = Table(box=None, pad_edge=False, header_style="bold")
         table.add_column("annotator")
         for title in ("pass", *STATUSES, "s a photo", "left"):
             table.add_column(title, justify="right")
-        for who, number, found in passes:
-            cards = [card for photo, card in found.items() if photo in present]
+        for who, number, every in passes:
+            cards = [card for photo, card in every.items() if photo in present]
             counts = Counter(card.status for card in cards)
             done = [card.seconds for card in cards if card.status in ("accepted", "rejected")]
             each = sum(done) / len(done) if done else None
@@ -46,6 +54,12 @@ class Status:
         print(f"{counted(len(present), 'photo')} in {self.folder}")
         if passes:
             Console(width=max(Console().width, 100)).print(table)
+        if self.orphans:
+            for one in found.orphans:
+                whose = f"{one.annotator}, pass {one.number}, {one.status}"
+                print(f"{shown(one.name)} ({one.digest}): {whose}")
+        for note in (*store.problems, *found.unreadable, *aside, *gone(found.orphans)):
+            say(note, PROGRAM)
         return GOOD
 
 
@@ -70,12 +84,16 @@ class Agreement:
         from annotate.agreement import WITHIN, paired  # noqa: PLC0415
         from annotate.agreement import Agreement as Found  # noqa: PLC0415
         from annotate.agreement import picture as drawn  # noqa: PLC0415
+        from annotate.joined import joined  # noqa: PLC0415
         from skyline_viz.photo import write_photo  # noqa: PLC0415
 
         check_picture(self.picture)
         with opened(self.folder) as store:
             one, other = _two(store.passes(), self.first, self.second)
-            pairs = paired(store.labels(*one), store.labels(*other))
+            first, second = joined(store, *one), joined(store, *other)
+        for note in (*store.problems, *first.notes, *second.notes):
+            say(note, PROGRAM)
+        pairs = paired(first.labels, second.labels)
         if not pairs:
             raise UsageError(
                 f"no photo has been accepted by both {_named(one)} and {_named(other)}."

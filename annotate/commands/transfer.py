@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import time
-from dataclasses import dataclass
+from contextlib import closing
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import tyro
 
@@ -21,10 +21,12 @@ from annotate.commands.options import (
     whoever,
 )
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say
-from skyline_viz.commands.settings import OptionalFolder
+from skyline_viz.commands.settings import OptionalFolder, Switch
 
 if TYPE_CHECKING:
     from annotate.formats import Imported
+    from annotate.identity import Photo
+    from annotate.label_table import Log
 
 
 @dataclass(frozen=True)
@@ -49,22 +51,34 @@ class Export:
     pass_number: int = 0
     """Which pass, where there are several."""
 
+    orphans: Switch = False
+    """Write the labels whose photos are not in the folder any more, and no others; csv or json."""
+
     def run(self) -> int:
         """Export; return the exit status."""
         from annotate.formats import export_labels  # noqa: PLC0415
+        from annotate.joined import joined  # noqa: PLC0415
 
         out = self.out or Path(f"skylines-{self.format}")
         with opened(self.folder) as store:
             who, number = chosen_pass(store, self.annotator, self.pass_number)
-            every = list(store.labels(who, number))
-            known = {photo.name for photo in store.photos()}
+            found = joined(store, who, number)
+        for note in (*store.problems, *(found.unreadable if self.orphans else found.notes)):
+            say(note, PROGRAM)
+        every = found.orphans if self.orphans else found.labels
+        if self.orphans and not every:
+            raise UsageError(f"the photos of all labels of {who}, pass {number}, are there.")
         labels = [one for one in every if self.status in ("all", one.status)]
-        export = export_labels(labels, self.folder, out, self.format)
+        export = export_labels(
+            labels, self.folder, out, self.format, found.contents, orphans=self.orphans
+        )
         for note in export.notes:
             say(note, PROGRAM)
         print(f"{counted(export.written, 'label')} in {out}")
-        if missing := len(known) - export.written:
-            print(f"Not in it: {counted(missing, 'photo')} of the folder.")
+        whole = len(every) if self.orphans else len(found.photos)
+        if (missing := whole - export.written) > 0:
+            what = "label" if self.orphans else "photo"
+            print(f"Not in it: {counted(missing, what)} of the folder.")
         return GOOD
 
 
@@ -92,33 +106,66 @@ class Import:
 
     def run(self) -> int:
         """Import; return the exit status."""
-        from annotate.formats import import_labels  # noqa: PLC0415
-        from annotate.store import StaleError, Store  # noqa: PLC0415
+        from annotate.store import Store  # noqa: PLC0415
 
         check_folder(self.folder)
-        store = Store(self.folder)
-        skipped = 0
-        try:
-            photos = {photo.name: photo for photo in store.find()}
-            if not photos:
-                raise UsageError(f"{self.folder} holds no photograph.")
-            found = import_labels(self.source, self.folder, photos, self.format)
-            for one in found:
-                told = one.label
-                who = self.annotator or (told.annotator if told else "") or whoever("")
-                number = self.pass_number or (told.number if told else 1)
-                label = store.begin(photos[one.name].id, who, number)
-                try:
-                    store.insert(label, *log_of(one, photos[one.name].height, self.status))
-                except StaleError:
-                    skipped += 1
-                    say(f"{one.name} has been labelled by {who} in pass {number} already.", PROGRAM)
-        finally:
-            store.close()
-        print(f"{counted(len(found) - skipped, 'label')} imported into {self.folder}")
+        with closing(Store(self.folder, reading=True)) as store:
+            logs = self._checked(store.find())  # before a file is made, or a row is added
+        with closing(Store(self.folder)) as store:
+            ids = {photo.digest: photo.id for photo in store.find()}
+            for digest in logs:
+                if digest[0] not in ids:
+                    raise UsageError(f"a photo in {self.folder} was changed meanwhile; try again.")
+            kept = [replace(log, photo=ids[digest[0]]) for digest, log in logs.items()]
+            skipped = store.insert(kept)
+            names = {photo.id: photo.name for photo in store.find()}  # reads what they are known by
+        for log in skipped:
+            already = f"has been labelled by {log.annotator} in pass {log.number} already."
+            say(f"{names[log.photo]} {already}", PROGRAM)
+        print(f"{counted(len(logs) - len(skipped), 'label')} imported into {self.folder}")
         if skipped:
             say("name another --annotator or --pass-number to keep both.", PROGRAM)
         return SOME_FAILED if skipped else GOOD
+
+    def _checked(self, photos: list[Photo]) -> dict[tuple[str, str, int], Log]:
+        """Labels that can be kept, by the digest of their photo, annotator and pass."""
+        from annotate.importing import checked  # noqa: PLC0415
+
+        by_name = {photo.name: photo for photo in photos}
+        if not photos:
+            raise UsageError(f"{self.folder} holds no photograph.")
+        logs: dict[tuple[str, str, int], Log] = {}
+        for one in self._read(photos):
+            told, photo = one.label, by_name[one.name]
+            who = self.annotator or (told.annotator if told else "") or whoever("")
+            number = self.pass_number or (told.number if told else 1)
+            log = checked(one, photo, who, number, status=self.status, source=self.source.name)
+            if (photo.digest, who, number) in logs:
+                raise UsageError(
+                    f"{self.source} holds several labels of {one.name} by {who}, pass {number}, "
+                    "and one is kept; nothing is imported."
+                )
+            logs[photo.digest, who, number] = log
+        return logs
+
+    def _read(self, photos: list[Photo]) -> list[Imported]:
+        """What the file or folder holds of these photos; what is of others is said."""
+        from annotate import formats  # noqa: PLC0415
+        from annotate.contents import Contents  # noqa: PLC0415
+        from annotate.formats.whole import at_home, read_labels  # noqa: PLC0415
+        from annotate.joined import gone  # noqa: PLC0415
+
+        names = [photo.name for photo in photos]
+        if not self.source.exists() or (self.format or formats.format_of(self.source)) != "json":
+            return formats.import_labels(self.source, self.folder, names, self.format)
+        contents = Contents.of(self.folder, photos)
+        found, others = at_home(read_labels(self.source), self.folder, contents)
+        said = gone(others, f"in {self.folder}")
+        if not found:
+            raise formats.FormatError(" ".join(said) or f"{self.source} holds no label.")
+        for sentence in said:
+            say(sentence, PROGRAM)
+        return found
 
 
 @dataclass(frozen=True)
@@ -143,37 +190,3 @@ class Backup:
         backup(self.folder, out)
         print(out)
         return GOOD
-
-
-def log_of(
-    one: Imported, height: int, status: str
-) -> tuple[list[tuple[float, str, dict[str, Any]]], Any]:
-    """The log of an imported label, and its line.
-
-    A label that comes with its log keeps it. Any other counts as drawn by hand; in a column that
-    is all sky the line cannot be seen.
-    """
-    import numpy as np  # noqa: PLC0415
-
-    from annotate.labels import ORIGINS  # noqa: PLC0415
-    from annotate.lines import Line  # noqa: PLC0415
-    from skyline_viz.skyline import Skyline  # noqa: PLC0415
-
-    if one.label is not None and one.label.operations:
-        log = []
-        for operation in one.label.operations:
-            body = {name: value for name, value in operation.items() if name not in ("kind", "at")}
-            log.append((float(operation.get("at", 0.0)), str(operation["kind"]), body))
-        return log, Line(one.skyline, one.label.origin)
-    now = time.time()
-    inside = np.minimum(one.skyline.rows, height - 1)
-    skyline = Skyline(rows=inside, visible=one.skyline.visible & (one.skyline.rows < height))
-    log = [(now, "drawn", {"first": 0, "rows": inside.astype(int).tolist()})]
-    seen = np.concatenate([[True], skyline.visible, [True]])
-    runs = np.flatnonzero(seen[1:] != seen[:-1]).reshape(-1, 2).tolist()
-    for first, stop in runs:
-        log.append((now, "hidden", {"first": first, "last": stop - 1, "hidden": True}))
-    log += [(now, "tag", {"tag": tag, "on": True}) for tag in one.tags]
-    log.append((now, "status", {"status": one.label.status if one.label else status}))
-    origin = np.full(skyline.width, ORIGINS.index("drawn"), np.uint8)
-    return log, Line(skyline, origin)

@@ -138,7 +138,7 @@ def archive(
     contents: Contents | None = None,
     notes: Iterable[str] = (),
 ) -> bytes:
-    """Export labels into a ZIP file; `notes` and what was left out are told in its ``notes.txt``."""
+    """Export labels into a ZIP file; `notes` and what was left out are in its ``notes.txt``."""
     packed = io.BytesIO()
     with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(packed, "w") as file:
         out = Path(folder) / "export"
@@ -171,7 +171,7 @@ def import_labels(
     """
     if not source.exists():
         raise FormatError(f"{source} does not exist.")
-    chosen = format or _format_of(source)
+    chosen = format or format_of(source)
     if chosen not in FORMATS:
         raise FormatError(f"{chosen!r} is no format; there are {', '.join(FORMATS)}.")
     found = FORMATS[chosen][1](source, photos, names_of(names, photos))
@@ -180,8 +180,12 @@ def import_labels(
     return found
 
 
-def _format_of(source: Path) -> str:
-    """The format of a file or folder, by what is in it."""
+def format_of(source: Path) -> str:
+    """The format of a file or folder, by what is in it.
+
+    Raises:
+        FormatError: It is of no known format.
+    """
     if source.suffix == ".json":
         return tables.kind_of_json(source)
     if source.suffix == ".xml":
@@ -215,5 +219,6 @@ __all__ = [
     "Imported",
     "archive",
     "export_labels",
+    "format_of",
     "import_labels",
 ]

@@ -70,4 +70,3 @@ def kind_of_json(file: Path) -> str:
     if "shapes" in document:
         return "labelme"
     raise FormatError(f"{file} is JSON, but of no known format.")
-

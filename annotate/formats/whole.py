@@ -96,7 +96,8 @@ def read_labels(source: Path) -> list[Label]:
         raise FormatError(f"{file} has version {document.get('version')!r:.40}, and 1 is known.")
     if len(document["labels"]) > MOST_LABELS:
         raise FormatError(
-            f"{file} holds {len(document['labels']):,} labels, and at most {MOST_LABELS:,} are read."
+            f"{file} holds {len(document['labels']):,} labels, and at most {MOST_LABELS:,} are "
+            "read."
         )
     return [_label(one, file, place) for place, one in enumerate(document["labels"], 1)]
 
@@ -130,7 +131,9 @@ def _label(said: object, file: Path, place: int) -> Label:
     shown = f"label {place}" + (f" ({name!r:.200})" if isinstance(name, str) else "")
     try:
         told = _Label.model_validate(said)
-        skyline = Skyline(rows=told.skyline.rows, visible=np.array(told.skyline.visible))
+        skyline = Skyline(
+            rows=np.array(told.skyline.rows, np.float32), visible=np.array(told.skyline.visible)
+        )
         told.name.encode()
         return Label(
             **told.model_dump(exclude={"skyline", "origin", "annotator", "tags", "operations"}),

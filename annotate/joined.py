@@ -1,0 +1,75 @@
+"""Labels joined to the photos that are in the folder now; the others are named, never mixed up."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from annotate.contents import Contents
+from annotate.database import shown
+from annotate.identity import Photo, short
+from annotate.labels import Label
+from annotate.store import Store
+
+_NAMED = 5  # labels that a sentence names
+
+
+@dataclass(frozen=True)
+class Joined:
+    """The labels of a folder."""
+
+    photos: Sequence[Photo]
+    """Photos that are in the folder now."""
+
+    labels: Sequence[Label]
+    """Labels of these photos."""
+
+    orphans: Sequence[Label]
+    """Labels whose photo is not there any more."""
+
+    unreadable: Sequence[str]
+    """A sentence for each label that cannot be read."""
+
+    contents: Contents
+    """What is in the files of the photos."""
+
+    @property
+    def notes(self) -> list[str]:
+        """What has to be said of labels that are left out."""
+        return [*self.unreadable, *gone(self.orphans)]
+
+
+def joined(store: Store, annotator: str | None = None, number: int | None = None) -> Joined:
+    """Look which photos are in the folder, and join labels to them.
+
+    Args:
+        store: The labels.
+        annotator: Only theirs.
+        number: Only of this pass.
+    """
+    photos = store.find()
+    here = {photo.digest for photo in photos}
+    labels = list(store.labels(annotator, number))
+    return Joined(
+        photos,
+        [one for one in labels if one.digest in here],
+        [one for one in labels if one.digest not in here and _worked_on(one)],
+        list(store.unreadable),
+        Contents.of(store.folder, photos),
+    )
+
+
+def gone(orphans: Sequence[Label], where: str = "here any more") -> list[str]:
+    """A sentence that names labels whose photo is not there; none where there are none."""
+    if not orphans:
+        return []
+    names = [f"{shown(one.name)} ({short(one.digest or one.pixels)})" for one in orphans[:_NAMED]]
+    if more := len(orphans) - len(names):
+        names.append(f"and {more} more")
+    if len(orphans) == 1:
+        return [f"1 label belongs to a photo that is not {where}: {names[0]}."]
+    return [f"{len(orphans)} labels belong to photos that are not {where}: {', '.join(names)}."]
+
+
+def _worked_on(label: Label) -> bool:
+    return any(one["kind"] != "open" for one in label.operations)
