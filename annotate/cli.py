@@ -7,6 +7,7 @@ import tyro
 
 from annotate.commands.open import Open
 from annotate.commands.options import PROGRAM
+from annotate.commands.repairs import Repair
 from annotate.commands.reports import Agreement, Status
 from annotate.commands.transfer import Backup, Export, Import
 from skyline_viz import __version__
@@ -43,6 +44,7 @@ def parse(arguments: list[str]) -> Command:
         "status": Status(missing),
         "agreement": Agreement(missing),
         "backup": Backup(missing),
+        "repair": Repair(missing),
     }
     kinds = tuple(
         Annotated[type(default), tyro.conf.subcommand(name, default=default)]

@@ -107,6 +107,10 @@ class StoreError(OSError):
     """Labels cannot be read or kept; the message is one sentence that says why."""
 
 
+class DamagedError(StoreError):
+    """A file of labels is not as SQLite wrote it; the message is one sentence that says so."""
+
+
 def connect(folder: Path) -> sqlite3.Connection:
     """Open the labels of a folder; make the file where there is none.
 
@@ -225,9 +229,9 @@ def sentences(path: Path) -> Iterator[None]:
     except sqlite3.IntegrityError:
         raise  # a fault of this program, not of the file
     except sqlite3.DatabaseError as error:
-        raise StoreError(damaged(path, str(error))) from error
+        raise DamagedError(damaged(path, str(error))) from error
     except UnicodeError as error:
-        raise StoreError(damaged(path, "it holds text that is none")) from error
+        raise DamagedError(damaged(path, "it holds text that is none")) from error
 
 
 def damaged(path: Path, reason: str) -> str:
@@ -297,7 +301,7 @@ def require_database(path: Path) -> None:
         reason = (error.strerror or str(error)).lower()
         raise StoreError(f"{path} cannot be read: {reason}.") from error
     if begins != _BEGINS:
-        raise StoreError(damaged(path, "it is no database"))
+        raise DamagedError(damaged(path, "it is no database"))
 
 
 def version_of(labels: sqlite3.Connection, path: Path) -> int:
@@ -323,7 +327,7 @@ def version_of(labels: sqlite3.Connection, path: Path) -> int:
             )
         found = str(labels.execute("PRAGMA integrity_check(1)").fetchone()[0])
         if found != "ok":
-            raise StoreError(damaged(path, shown(found)))
+            raise DamagedError(damaged(path, shown(found)))
     return version
 
 

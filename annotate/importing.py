@@ -17,13 +17,10 @@ from annotate.edits import Edits
 from annotate.formats import FormatError, Imported
 from annotate.identity import Photo
 from annotate.label_table import Log
-from annotate.labels import ORIGINS, check_annotator
+from annotate.labels import MOST_PASSES, ORIGINS, check_annotator
 from annotate.lines import Line
 from annotate.log import LogError, State, folded
 from skyline_viz.skyline import Skyline
-
-MOST_PASSES = 1_000_000
-"""The largest number of a pass."""
 
 _LONGEST_TAG = 80  # characters
 _LATEST = 1e12  # seconds; beyond it a time is none

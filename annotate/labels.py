@@ -22,6 +22,9 @@ TAGS = ("no visible skyline", "not left to right", "needs terrain data")
 """Tags that are offered; annotators add their own."""
 
 
+MOST_PASSES = 1_000_000
+"""The largest number of a pass."""
+
 LONGEST_NAME = 80
 """Characters of an annotator's name at most."""
 

@@ -17,6 +17,7 @@ from annotate.database import StoreError
 from annotate.edits import EditError
 from annotate.formats import FormatError
 from annotate.learning import Learner
+from annotate.lines import LineError
 from annotate.log import LogError
 from annotate.security import Guard
 from annotate.stage_viewer import StageViewer
@@ -40,6 +41,7 @@ _STATUSES: dict[type[Exception], int] = {
     FormatError: 422,
     StoreError: 507,
     LogError: 422,
+    LineError: 422,
     ViewerError: 503,
 }
 

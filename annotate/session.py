@@ -6,6 +6,7 @@ import threading
 
 from annotate.edits import EditError, Edits
 from annotate.kept_states import Request, StaleError
+from annotate.label_table import require_fit
 from annotate.lines import Line
 from annotate.live_wire import LiveWire
 from annotate.opened import Opened
@@ -142,6 +143,7 @@ class Session:
         state = self.state
         if not state.revision or state.line is None:
             return
+        require_fit(state.line, self.photo.width)
         try:
             self.wire.edits = state.edits
             same = not self.wire.empty and self.wire.skyline == state.line.skyline

@@ -12,7 +12,15 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import tyro
 
-from annotate.commands.options import PROGRAM, Annotator, PhotoFolder, check_folder, whoever
+from annotate.commands.options import (
+    PROGRAM,
+    Annotator,
+    PhotoFolder,
+    check_folder,
+    locked,
+    whoever,
+)
+from annotate.labels import MOST_PASSES
 from skyline_viz.commands.messages import GOOD, UsageError, counted, say
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detector
@@ -21,8 +29,6 @@ from skyline_viz.config import DetectorConfig
 if TYPE_CHECKING:
     from annotate.workbench import Workbench
     from skyline_viz.methods.protocol import Method
-
-_LOCK = ".skyline-labels.lock"
 
 
 @dataclass(frozen=True)
@@ -73,32 +79,19 @@ class Open:
 
     def run(self) -> int:
         """Serve until Ctrl-C; return the exit status."""
-        from filelock import FileLock, Timeout  # noqa: PLC0415
-
-        from annotate.database import StoreError  # noqa: PLC0415
-
         self._check()
-        lock = FileLock(self.folder / _LOCK, timeout=0)
-        try:
-            lock.acquire()
-        except Timeout:
-            raise UsageError(
-                f"{self.folder} is open in another {PROGRAM}; close that one first."
-            ) from None
-        except OSError as error:
-            raise StoreError(
-                f"{self.folder} cannot be written, and labels are kept in it: "
-                f"{(error.strerror or str(error)).lower()}."
-            ) from error
-        with lock:
+        with locked(self.folder):
             return self._serve()
 
     def _check(self) -> None:
         check_folder(self.folder)
         if not 0 <= self.blind <= 1:
             raise UsageError(f"--blind is a share from 0 to 1, not {self.blind}.")
-        if self.pass_number < 1:
-            raise UsageError(f"passes are numbered from 1, so there is no pass {self.pass_number}.")
+        if not 1 <= self.pass_number <= MOST_PASSES:
+            raise UsageError(
+                f"passes are numbered from 1 to {MOST_PASSES:,}, so there is no pass "
+                f"{self.pass_number}."
+            )
         if not 0 <= self.port < 2**16:
             raise UsageError(f"ports are numbered up to 65535, so there is no port {self.port}.")
 

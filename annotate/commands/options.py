@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 PROGRAM = "skyline-annotate"
 """The program's name."""
 
+_LOCK = ".skyline-labels.lock"
+
 PhotoFolder: TypeAlias = Annotated[Path, tyro.conf.Positional, tyro.conf.arg(metavar="DIR")]
 """The folder of the photos, in which their labels are kept."""
 
@@ -60,6 +62,32 @@ def check_folder(folder: Path) -> Path:
 
 
 @contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Keep other programs from opening a folder meanwhile.
+
+    Raises:
+        UsageError: Another one has it open.
+        StoreError: It cannot be written.
+    """
+    from filelock import FileLock, Timeout  # noqa: PLC0415
+
+    from annotate.database import StoreError  # noqa: PLC0415
+
+    lock = FileLock(folder / _LOCK, timeout=0)
+    try:
+        lock.acquire()
+    except Timeout:
+        raise UsageError(f"{folder} is open in another {PROGRAM}; close that one first.") from None
+    except OSError as error:
+        raise StoreError(
+            f"{folder} cannot be written, and labels are kept in it: "
+            f"{(error.strerror or str(error)).lower()}."
+        ) from error
+    with lock:
+        yield
+
+
+@contextmanager
 def opened(folder: Path) -> Iterator[Store]:
     """The labels of a folder that has some, to be read.
 
@@ -67,10 +95,10 @@ def opened(folder: Path) -> Iterator[Store]:
         UsageError: There is no such folder, or it has no labels.
         StoreError: They cannot be opened.
     """
-    from annotate.database import NAME  # noqa: PLC0415
+    from annotate.database import NAME, holds_something  # noqa: PLC0415
     from annotate.store import Store  # noqa: PLC0415
 
-    if not (check_folder(folder) / NAME).is_file():
+    if not holds_something(check_folder(folder) / NAME):
         raise UsageError(f"{folder} has no labels yet; make some: {PROGRAM} open {folder}.")
     store = Store(folder, reading=True)
     try:

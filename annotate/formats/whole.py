@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 from annotate.contents import Contents
 from annotate.formats.common import Entry, FormatError, Imported, check_size
 from annotate.formats.tables import JSON_FORMAT, load_json
-from annotate.labels import ORIGINS, Label, check_annotator
+from annotate.labels import MOST_PASSES, ORIGINS, Label, check_annotator
 from annotate.operations import Status
 from skyline_viz.files import write_text
 from skyline_viz.skyline import Skyline, SkylineError
@@ -49,7 +49,7 @@ class _Label(_Part):
     width: Side
     height: Side
     annotator: str
-    number: Annotated[int, Field(ge=1, le=10**6)]
+    number: Annotated[int, Field(ge=1, le=MOST_PASSES)]
     status: Status
     tags: Annotated[list[Annotated[str, Field(max_length=80)]], Field(max_length=1000)]
     skyline: _Line

@@ -1,0 +1,28 @@
+"""``skyline-annotate repair``: a folder whose labels are damaged is made to work again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from annotate.commands.options import PROGRAM, PhotoFolder, check_folder, locked
+from skyline_viz.commands.messages import GOOD, say
+
+
+@dataclass(frozen=True)
+class Repair:
+    """Save what can be read of damaged labels, and set aside those that cannot; none is deleted."""
+
+    folder: PhotoFolder
+    """Folder of the photos."""
+
+    def run(self) -> int:
+        """Repair; return the exit status."""
+        from annotate.repair import repair  # noqa: PLC0415
+
+        with locked(check_folder(self.folder)):
+            said = repair(self.folder)
+        for sentence in said:
+            say(sentence, PROGRAM)
+        if not said:
+            print(f"All labels in {self.folder} can be read; nothing was changed.")
+        return GOOD

@@ -1,0 +1,143 @@
+"""Labels of a damaged or poisoned folder: what can be read is saved, what cannot is set aside.
+
+Nothing is deleted. A label that cannot be read keeps its rows, and its photo is free to be labelled
+again. A damaged file keeps its bytes under another name, and what SQLite can still read of it goes
+into a new one.
+"""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+from collections.abc import Mapping
+from contextlib import closing
+from datetime import datetime
+from pathlib import Path
+
+from annotate.database import (
+    NAME,
+    DamagedError,
+    StoreError,
+    connect,
+    examine,
+    holds_something,
+    sentences,
+    write_into,
+)
+from annotate.kept_detectors import unpack
+from annotate.kept_states import KeptStates
+from annotate.label_table import whole_label
+from annotate.labels import check_annotator
+from annotate.lines import Line
+from annotate.log import LogError
+from annotate.readable import named, reading_label
+from annotate.salvage import salvaged
+from skyline_viz.files import flush, replacing
+
+
+def repair(folder: Path) -> list[str]:
+    """Repair the labels of a folder, which nobody has open meanwhile.
+
+    Returns:
+        A sentence for each thing that was done; none where there was nothing to do.
+
+    Raises:
+        StoreError: There are none, they are of a newer version or not ours, nothing of them can be
+            read, or the folder cannot be written.
+    """
+    path = folder / NAME
+    if not holds_something(path):
+        raise StoreError(f"{folder} has no labels to repair.")
+    said: list[str] = []
+    lost: dict[int, str] = {}
+    try:
+        examine(path)
+    except DamagedError:
+        lost = _save(path, said)
+    with closing(connect(folder)) as database, sentences(path):
+        database.execute("BEGIN IMMEDIATE")
+        said += _drop_proposals(database)
+        for label, reason in _unreadable(database, lost).items():
+            _set_aside(database, label, reason)
+            said.append(f"set aside: {reason}")
+        database.execute("COMMIT" if said else "ROLLBACK")
+    return said
+
+
+def _save(path: Path, said: list[str]) -> dict[int, str]:
+    """Put what can be read of a damaged file in its place; return why labels are not whole."""
+    found = salvaged(path)
+    date = datetime.now().astimezone().strftime("%Y-%m-%d-%H%M%S")
+    kept = path.with_name(f"{path.stem}-damaged-{date}{path.suffix}")
+    beside = [path.with_name(path.name + end) for end in ("-wal", "-journal", "-shm")]
+    try:
+        with closing(found.labels), sentences(path), replacing(path) as temporary:
+            write_into(temporary, found.labels)
+            for file in (path, *beside[:2]):
+                if file.exists():
+                    copy = kept.with_name(file.name.replace(path.name, kept.name))
+                    shutil.copyfile(file, copy)
+                    flush(copy)
+            for file in beside:  # which belong to the damaged file, and not to the new one
+                file.unlink(missing_ok=True)
+    except StoreError:
+        raise
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise StoreError(f"{path} cannot be repaired: {reason}.") from error
+    said.append(f"{path} was damaged; what can be read is in a new one, and it is now {kept.name}.")
+    said += found.said
+    return found.lost
+
+
+def _unreadable(database: sqlite3.Connection, lost: Mapping[int, str]) -> dict[int, str]:
+    """Why labels cannot be read, by their id."""
+    states, found = KeptStates(), {}
+    for (label,) in database.execute(
+        "SELECT id FROM labels WHERE id NOT IN (SELECT label FROM set_aside) ORDER BY id"
+    ).fetchall():
+        try:
+            with reading_label(database, label):
+                if label in lost:
+                    raise LogError(lost[label])
+                database.execute("DELETE FROM checkpoints WHERE label = ?", (label,))
+                whole = whole_label(database, label, states.read(database, label))
+                check_annotator(whole.annotator)
+                if whole.number < 1:
+                    raise LogError(f"there is no pass {whole.number}")
+        except LogError as error:
+            found[label] = str(error)
+    return found
+
+
+def _drop_proposals(database: sqlite3.Connection) -> list[str]:
+    """Forget proposals that are damaged, and what made them: they can be made again."""
+    said = []
+    for label, proposal, config, bank in database.execute(
+        "SELECT labels.id, proposal, config, bank FROM labels"
+        " LEFT JOIN detectors ON detectors.id = detector"
+        " WHERE proposal IS NOT NULL OR detector IS NOT NULL"
+    ).fetchall():
+        try:
+            with reading_label(database, label):
+                if proposal is not None:
+                    Line.unpacked(proposal)
+                if bank is not None:
+                    unpack(config, bank)
+        except LogError:
+            database.execute(
+                "UPDATE labels SET proposal = NULL, detector = NULL, margin = NULL WHERE id = ?",
+                (label,),
+            )
+            said.append(f"the proposal of {named(database, label)} was damaged, and is forgotten.")
+    return said
+
+
+def _set_aside(database: sqlite3.Connection, label: int, reason: str) -> None:
+    """Keep a label where it hides no other, and its photo can be labelled again."""
+    database.execute(
+        "INSERT INTO set_aside (label, annotator, number, reason)"
+        " SELECT id, annotator, number, ? FROM labels WHERE id = ?",
+        (reason, label),
+    )
+    database.execute("UPDATE labels SET number = -id WHERE id = ?", (label,))
