@@ -8,6 +8,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
+from annotate.edits import Stroke
 from annotate.labels import ORIGINS
 from annotate.operations import Operation, Place, Status, spoken
 from annotate.session import Session
@@ -126,6 +127,11 @@ class ShownStroke(BaseModel):
     radius: int
     allow: bool
 
+    @classmethod
+    def of(cls, stroke: Stroke) -> ShownStroke:
+        """Show a stroke, which was checked when it was made."""
+        return cls.model_construct(points=stroke.points, radius=stroke.radius, allow=stroke.allow)
+
 
 class Document(BaseModel):
     """A photo with everything that was done to it."""
@@ -173,7 +179,7 @@ class Document(BaseModel):
             hidden=edits.hidden,
             anchors=sorted(edits.anchors.items()),
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
-            forbidden=[ShownStroke(**vars(one)) for one in edits.strokes],
+            forbidden=[ShownStroke.of(one) for one in edits.strokes],
             can_undo=bool(state.steps),
             can_redo=bool(state.taken),
             undo_what=spoken(state.steps[-1].change) if state.steps else None,
