@@ -317,7 +317,7 @@ class LiveWire:
             return None
         same = 0
         for one, other in zip(before, plan.strokes, strict=False):
-            if one != other:
+            if one is not other and one != other:
                 break
             same += 1
         touched = [stroke.columns for stroke in (*before[same:], *plan.strokes[same:])]

@@ -120,19 +120,6 @@ class ShownSpan(BaseModel):
     last: int
 
 
-class ShownStroke(BaseModel):
-    """A stroke of the brush."""
-
-    points: tuple[tuple[int, int], ...]
-    radius: int
-    allow: bool
-
-    @classmethod
-    def of(cls, stroke: Stroke) -> ShownStroke:
-        """Show a stroke, which was checked when it was made."""
-        return cls.model_construct(points=stroke.points, radius=stroke.radius, allow=stroke.allow)
-
-
 class Document(BaseModel):
     """A photo with everything that was done to it."""
 
@@ -148,7 +135,7 @@ class Document(BaseModel):
     hidden: tuple[tuple[int, int], ...]
     anchors: list[tuple[int, int]]
     spans: list[ShownSpan]
-    forbidden: list[ShownStroke]
+    forbidden: tuple[Stroke, ...]
     can_undo: bool
     can_redo: bool
     undo_what: str | None
@@ -179,7 +166,7 @@ class Document(BaseModel):
             hidden=edits.hidden,
             anchors=sorted(edits.anchors.items()),
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
-            forbidden=[ShownStroke.of(one) for one in edits.strokes],
+            forbidden=edits.strokes,
             can_undo=bool(state.steps),
             can_redo=bool(state.taken),
             undo_what=spoken(state.steps[-1].change) if state.steps else None,
