@@ -24,7 +24,8 @@ MOST_LABELS = 100_000
 MOST_OPERATIONS = 20_000
 """Operations that the log of a label may have."""
 
-_VERSION = 1
+_VERSION = 2  # 1 had no undo of a status, and a program that knows no other would misread its log
+_KNOWN = (1, 2)
 _SIDE = 100_000  # pixels
 
 Origin = Literal["proposal", "solved", "straight", "drawn"]
@@ -92,8 +93,10 @@ def read_labels(source: Path) -> list[Label]:
     document = load_json(file)
     if document.get("format") != JSON_FORMAT or not isinstance(document.get("labels"), list):
         raise FormatError(f'{file} is not of the format "{JSON_FORMAT}".')
-    if document.get("version") != _VERSION:
-        raise FormatError(f"{file} has version {document.get('version')!r:.40}, and 1 is known.")
+    if document.get("version") not in _KNOWN:
+        known = " and ".join(map(str, _KNOWN))
+        said = f"{document.get('version')!r:.40}"
+        raise FormatError(f"{file} has version {said}, and {known} are known.")
     if len(document["labels"]) > MOST_LABELS:
         raise FormatError(
             f"{file} holds {len(document['labels']):,} labels, and at most {MOST_LABELS:,} are "
