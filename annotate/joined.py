@@ -36,7 +36,14 @@ class Joined:
     @property
     def notes(self) -> list[str]:
         """What has to be said of labels that are left out."""
-        return [*self.unreadable, *gone(self.orphans)]
+        return [*self.damaged, *gone(self.orphans)]
+
+    @property
+    def damaged(self) -> list[str]:
+        """What has to be said of labels that cannot be read."""
+        if not self.unreadable:
+            return []
+        return [*self.unreadable, "skyline-annotate repair sets aside what cannot be read."]
 
 
 def joined(store: Store, annotator: str | None = None, number: int | None = None) -> Joined:

@@ -68,6 +68,8 @@ class ShownPhoto(BaseModel):
     blind: bool
     missing: bool
     seconds: float
+    problem: str
+    """Why its label cannot be read; empty where it can."""
 
     @classmethod
     def of(cls, card: Card, *, missing: bool) -> ShownPhoto:
@@ -84,6 +86,7 @@ class ShownPhoto(BaseModel):
             blind=card.blind,
             missing=missing,
             seconds=card.seconds,
+            problem=card.problem,
         )
 
 

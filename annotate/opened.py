@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from annotate.database import StoreError
 from annotate.identity import Photo, Stamp, file_digest, pixel_digest
 from skyline_viz.arrays import U8
 from skyline_viz.photo import PhotoError, read_photo
@@ -39,16 +41,18 @@ class Opened:
     def confirm(self) -> None:
         """Make sure that what lies on the disk is still what is open; cheap while nobody writes it.
 
-        A file that has vanished is no other photo: the label of its pixels goes on.
-
         Raises:
             ReplacedError: It is another photo now.
-            PhotoError: It cannot be read any more.
+            PhotoError: It has vanished, or cannot be read any more.
         """
         path = self._store.folder / self._photo.name
         marks = _marks(path)
-        if marks in (None, self._marks):
+        if marks == self._marks:
             return
+        if marks is None:
+            raise PhotoError(
+                f"{self._photo.name} is not there any more, so nothing is kept for it."
+            )
         if pixel_digest(read_photo(path)) != self._known or _marks(path) != marks:
             raise ReplacedError(
                 f"{self._photo.name} was replaced by another photo while it was open, so nothing "
@@ -65,7 +69,8 @@ class Opened:
         except OSError:
             return  # it has just vanished
         if _marks(path) == self._marks:
-            self._store.keep_file(self._photo, digest, self._known, stamp)
+            with suppress(StoreError):  # to be kept the next time; that it fails is said elsewhere
+                self._store.keep_file(self._photo, digest, self._known, stamp)
 
 
 def read_whole(store: Store, photo: Photo) -> U8:

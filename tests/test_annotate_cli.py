@@ -45,7 +45,16 @@ def folder(tmp_path):
 def test_help_and_version(capsys):
     assert run("--version") == 0
     assert capsys.readouterr().out == f"skyline-annotate {__version__}\n"
-    for words in ([], ["open"], ["export"], ["import"], ["status"], ["agreement"], ["backup"]):
+    for words in (
+        [],
+        ["open"],
+        ["export"],
+        ["import"],
+        ["status"],
+        ["agreement"],
+        ["backup"],
+        ["repair"],
+    ):
         assert run(*words, "--help") == 0
         assert "usage: skyline-annotate" in capsys.readouterr().out
 

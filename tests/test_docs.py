@@ -28,7 +28,7 @@ COMMANDS = (
     "render",
     "demo",
 )
-LABELLING = ("open", "export", "import", "status", "agreement", "backup")
+LABELLING = ("open", "export", "import", "status", "agreement", "backup", "repair")
 PROGRAMS = [(main, COMMANDS), (annotate.cli.main, LABELLING)]
 
 

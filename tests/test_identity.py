@@ -27,7 +27,7 @@ from annotate.joined import joined
 from annotate.opened import ReplacedError, read_whole
 from annotate.operations import SetStatus, SetTag, Straight
 from annotate.store import Store
-from skyline_viz.photo import read_photo
+from skyline_viz.photo import PhotoError, read_photo
 from tests.labelling import served, workbench
 from tests.photo_files import replaced, with_comment, with_place, write_jpegs
 
@@ -277,16 +277,18 @@ def test_a_photo_that_is_replaced_while_it_is_open_is_noticed_before_anything_is
     assert statuses(folder) == dict.fromkeys(["hill-0.jpg", "hill-1.jpg", "hill-2.jpg"], "to do")
 
 
-def test_a_photo_that_vanishes_while_it_is_open_goes_on(folder):
+def test_a_photo_that_vanishes_while_it_is_open_takes_nothing_more(folder):
     bench = workbench(folder)
     photo = next(one for one in bench.photos.values() if one.name == "hill-1.jpg")
     session = bench.session(photo.id)
     kept = (folder / "hill-1.jpg").read_bytes()
     (folder / "hill-1.jpg").unlink()
+    with pytest.raises(PhotoError, match="not there any more"):
+        session.apply(SetStatus(status="accepted"), -1)
+    (folder / "hill-1.jpg").write_bytes(kept)
     session.apply(SetStatus(status="accepted"), -1)
     bench.close()
-    (folder / "again.jpg").write_bytes(kept)
-    assert statuses(folder)["again.jpg"] == "accepted"
+    assert statuses(folder)["hill-1.jpg"] == "accepted"
 
 
 def test_pixels_are_those_of_the_photo_or_none(folder):

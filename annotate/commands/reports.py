@@ -58,7 +58,7 @@ class Status:
             for one in found.orphans:
                 whose = f"{one.annotator}, pass {one.number}, {one.status}"
                 print(f"{shown(one.name)} ({one.digest}): {whose}")
-        for note in (*store.problems, *found.unreadable, *aside, *gone(found.orphans)):
+        for note in (*store.problems, *found.damaged, *aside, *gone(found.orphans)):
             say(note, PROGRAM)
         return GOOD
 

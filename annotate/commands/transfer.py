@@ -63,7 +63,7 @@ class Export:
         with opened(self.folder) as store:
             who, number = chosen_pass(store, self.annotator, self.pass_number)
             found = joined(store, who, number)
-        for note in (*store.problems, *(found.unreadable if self.orphans else found.notes)):
+        for note in (*store.problems, *(found.damaged if self.orphans else found.notes)):
             say(note, PROGRAM)
         every = found.orphans if self.orphans else found.labels
         if self.orphans and not every:
