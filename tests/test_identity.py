@@ -378,7 +378,7 @@ def test_orphans_are_listed_and_leave_under_their_own_names(folder, tmp_path, ca
     assert run("export", folder, "--orphans", "--format", "json", "--out", out) == 0
     document = json.loads((out / "labels.json").read_text())
     assert [one["name"] for one in document["labels"]] == ["hill-1.jpg", "hill-2.jpg"]
-    assert run("import", folder, out, "--annotator", "eve") == 1
+    assert run("import", folder, out, "--annotator", "eve") == 2
     assert "not in" in capsys.readouterr().err
 
 

@@ -11,12 +11,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import annotate.database as database
+import skyline_viz.files as files
 from annotate.database import MIGRATIONS, NAME, StoreError, backup, on_network
+from annotate.formats import export_labels
 from annotate.lines import Line
-from annotate.operations import SetAnchor
+from annotate.operations import SetAnchor, SetStatus
 from annotate.store import StaleError, Store
 from skyline_viz.skyline import Skyline
-from tests.labelling import DETECTOR, write_hills
+from tests.labelling import DETECTOR, workbench, write_hills
 
 LINE = Line(Skyline(rows=[3, 4, 9]), np.array([0, 1, 3], np.uint8))
 
@@ -270,3 +272,32 @@ def test_a_read_only_folder_is_one_sentence(tmp_path, monkeypatch):
     with pytest.raises(StoreError, match=r"photos is read-only, and labels are kept in it\.$"):
         Store(folder)
     assert not (folder / NAME).exists()
+
+
+def test_a_new_file_of_labels_is_on_the_disk_with_its_name(tmp_path, monkeypatch):
+    flushed = []
+    monkeypatch.setattr(database, "flush", flushed.append)
+    Store(write_hills(tmp_path, count=1)).close()
+    assert flushed == [tmp_path]
+
+
+def test_an_export_is_on_the_disk_before_it_is_said_to_be_there(tmp_path, monkeypatch):
+    folder = write_hills(tmp_path / "photos", count=1)
+    bench = workbench(folder)
+    for photo in bench.photos:
+        bench.session(photo).apply(SetStatus(status="accepted"), -1)
+    joined = bench.joined()
+    said = []
+    flush = files.flush
+
+    def recorded(path):
+        said.append(path.name)
+        flush(path)
+
+    monkeypatch.setattr(files, "flush", recorded)
+    out = tmp_path / "out"
+    export_labels(joined.labels, folder, out, "ch1", joined.contents)
+    names = {path.name for path in out.rglob("*")}
+    assert names <= set(said)
+    assert said[-1] == tmp_path.name  # the name of the whole folder comes last
+    bench.close()
