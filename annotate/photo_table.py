@@ -35,6 +35,24 @@ def known_photos(database: sqlite3.Connection) -> list[Known]:
     ]
 
 
+def is_news(found: Sequence[Found], known: Sequence[Known]) -> bool:
+    """Whether there is anything to keep of the photos that are in the folder."""
+    here = {one.digest for one in found}
+    if any(one.labelled and one.photo.digest not in here for one in known):
+        return True
+    before = {one.photo.digest: one for one in known}
+    for one in found:
+        old = before.get(one.digest)
+        if old is None or (old.size, old.changed, old.touched) != _stamp(one.stamp):
+            return True
+        photo = old.photo
+        if (photo.name, photo.width, photo.height) != (one.name, one.width, one.height):
+            return True
+        if photo.pixels != one.pixels:
+            return True
+    return False
+
+
 def keep_found(
     database: sqlite3.Connection, found: Sequence[Found], known: Sequence[Known]
 ) -> None:

@@ -13,6 +13,7 @@ from contextlib import closing, suppress
 from pathlib import Path
 
 from annotate.database import (
+    MIGRATIONS,
     NAME,
     StoreError,
     holds_something,
@@ -26,8 +27,13 @@ from annotate.database import (
 _TRIES = 3  # of reading a file that nobody seems to write
 
 
-def snapshot(folder: Path) -> sqlite3.Connection:
+def snapshot(folder: Path, open_already: sqlite3.Connection | None = None) -> sqlite3.Connection:
     """A copy of the labels of a folder, in memory; empty where there are none.
+
+    Args:
+        folder: The folder.
+        open_already: A connection to them, where this process has one: their file must not be
+            opened once more then, or the locks on it would end with that.
 
     Raises:
         StoreError: They cannot be read.
@@ -36,7 +42,11 @@ def snapshot(folder: Path) -> sqlite3.Connection:
     copy = sqlite3.connect(":memory:", isolation_level=None, check_same_thread=False)
     try:
         version = 0
-        if holds_something(path):
+        if open_already is not None:
+            with sentences(path):
+                open_already.backup(copy)
+            version = len(MIGRATIONS)
+        elif holds_something(path):
             read_into(copy, path)
             version = version_of(copy, path)
         with sentences(path):

@@ -26,7 +26,14 @@ from annotate.labels import Label
 from annotate.lines import Line
 from annotate.log import LogError, State
 from annotate.opened import Present, read_whole
-from annotate.photo_table import every_photo, keep_file, keep_found, known_photos, photo_of
+from annotate.photo_table import (
+    every_photo,
+    is_news,
+    keep_file,
+    keep_found,
+    known_photos,
+    photo_of,
+)
 from annotate.readable import reading_label
 from annotate.snapshot import snapshot
 from annotate.standings import Standing
@@ -58,21 +65,26 @@ class Card:
 class Store:
     """The labels of a folder of photos, open for reading and writing."""
 
-    def __init__(self, folder: Path, *, reading: bool = False) -> None:
+    def __init__(self, folder: Path, *, reading: bool = False, of: Store | None = None) -> None:
         """Open them, and begin where there are none.
 
         Args:
             folder: The folder.
             reading: Whether they are only read: nothing is written then, so it works in every
                 folder, and what is read is how they are now.
+            of: A store of the folder, of which a copy is only read.
 
         Raises:
             StoreError: They cannot be opened; the message says why.
         """
         self.folder = folder
         self._lock = threading.RLock()
-        self._connection = snapshot(folder) if reading else connect(folder)
-        self._place = None if reading else Place(folder / NAME)
+        self._place = None if reading or of else Place(folder / NAME)
+        if of:
+            with of._reading() as database:
+                self._connection = snapshot(folder, database)
+        else:
+            self._connection = snapshot(folder) if reading else connect(folder)
         self._states = KeptStates()
         self._present = Present()
         self.problems: list[str] = []
@@ -94,8 +106,9 @@ class Store:
         with self._reading() as database:
             known = known_photos(database)
         found, self.problems = scan(self.folder, known)
-        with self._writing() as database:
-            keep_found(database, found, known)
+        if is_news(found, known):
+            with self._writing() as database:
+                keep_found(database, found, known)
         self._read_pixels({one.digest for one in found})
         here = {one.digest: one.stamp for one in found}
         photos = [photo for photo in self.photos() if photo.digest in here]
@@ -186,8 +199,12 @@ class Store:
             ).fetchone()
             if row is None:
                 return None
-            with reading_label(database, label):
-                return unpack(*row)
+            try:
+                with reading_label(database, label):
+                    return unpack(*row)
+            except OSError as error:
+                reason = (error.strerror or str(error)).lower()
+                raise StoreError(f"there is no room to read what proposed: {reason}.") from error
 
     def append(
         self,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections import OrderedDict
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import dataclass
 from typing import Literal
 
@@ -216,7 +217,8 @@ class Workbench:
     def joined(self) -> Joined:
         """Labels of this pass, joined to the photos that are in the folder now."""
         who = self.assignment
-        return joined(self.store, who.annotator, who.number)
+        with closing(Store(self.store.folder, of=self.store)) as store:
+            return joined(store, who.annotator, who.number)
 
     def thumbnail(self, photo: int) -> bytes:
         """A small picture of a photo, as JPEG."""
