@@ -11,6 +11,7 @@ _LABELLED = (
     "EXISTS (SELECT 1 FROM labels JOIN operations ON operations.label = labels.id"
     " WHERE labels.photo = photos.id AND kind != 'open')"
 )
+_WORKED_ON = "EXISTS (SELECT 1 FROM operations WHERE label = labels.id AND kind != 'open')"
 _PHOTO = "photos.id, name, photos.digest, width, height, pixels"
 
 
@@ -117,10 +118,28 @@ def _follow(database: sqlite3.Connection, here: dict[str, str]) -> None:
         elif one.labelled and one.photo.pixels:
             lost.append((one.photo.id, one.photo.pixels))
     for photo, pixels in lost:
-        if pixels in photos:  # a label of the same pass that is there already stays
-            database.execute(
-                "UPDATE OR IGNORE labels SET photo = ? WHERE photo = ?", (photos[pixels], photo)
-            )
+        if pixels in photos:
+            _move_labels(database, photo, photos[pixels])
+
+
+def _move_labels(database: sqlite3.Connection, photo: int, target: int) -> None:
+    """Give the labels of a photo to another one, but where that has been worked on in the pass."""
+    for label, annotator, number in database.execute(
+        "SELECT id, annotator, number FROM labels WHERE photo = ?", (photo,)
+    ).fetchall():
+        there = database.execute(
+            f"SELECT id, {_WORKED_ON} FROM labels"  # noqa: S608
+            " WHERE photo = ? AND annotator = ? AND number = ?",
+            (target, annotator, number),
+        ).fetchone()
+        if there and there[1]:
+            continue
+        move = "UPDATE labels SET photo = ?, number = ? WHERE id = ?"
+        if there:  # it was only looked at: the two change places
+            database.execute(move, (target, -there[0], there[0]))
+        database.execute(move, (target, number, label))
+        if there:
+            database.execute(move, (photo, number, there[0]))
 
 
 def _stamp(stamp: Stamp) -> tuple[int, int, int]:

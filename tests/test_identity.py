@@ -25,7 +25,7 @@ from annotate.formats import FORMATS, import_labels
 from annotate.identity import pixel_digest
 from annotate.joined import joined
 from annotate.opened import ReplacedError, read_whole
-from annotate.operations import SetStatus, SetTag, Straight
+from annotate.operations import Open, SetStatus, SetTag, Straight
 from annotate.store import Store
 from skyline_viz.photo import PhotoError, read_photo
 from tests.labelling import served, workbench
@@ -137,6 +137,19 @@ def test_an_edited_copy_takes_over_when_the_first_one_goes(folder):
     (folder / "hill-1.jpg").unlink()
     assert statuses(folder)["copies/hill-1.jpg"] == "accepted"
     assert rows_of(folder) == {"copies__hill-1": {11}}
+
+
+def test_a_copy_that_was_looked_at_takes_over_too(folder):
+    label(folder, ["hill-1.jpg"], 11)
+    shutil.copy(folder / "hill-1.jpg", folder / "copy.jpg")
+    with_comment(folder / "copy.jpg")
+    bench = workbench(folder)
+    for photo in bench.photos:
+        bench.session(photo).apply(Open(), -1)
+    bench.close()
+    (folder / "hill-1.jpg").unlink()
+    assert statuses(folder)["copy.jpg"] == "accepted"
+    assert rows_of(folder) == {"copy": {11}}
 
 
 def test_edited_copies_are_two_photos_while_both_are_there(folder):

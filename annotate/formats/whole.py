@@ -21,7 +21,7 @@ from skyline_viz.skyline import Skyline, SkylineError
 MOST_LABELS = 100_000
 """Labels that a file may hold."""
 
-MOST_OPERATIONS = 20_000
+MOST_OPERATIONS = 10_000
 """Operations that the log of a label may have."""
 
 _VERSION = 2  # 1 had no undo of a status, and a program that knows no other would misread its log
