@@ -64,6 +64,26 @@ MIGRATIONS = (
     CREATE TRIGGER operations_remain BEFORE DELETE ON operations
         BEGIN SELECT RAISE(ABORT, 'operations are never deleted'); END;
     """,
+    """
+    ALTER TABLE operations ADD COLUMN request TEXT;  -- the id that the page gave it
+    CREATE UNIQUE INDEX operations_asked ON operations (request) WHERE request IS NOT NULL;
+    DROP INDEX operations_of;
+    CREATE INDEX operations_of ON operations (label);
+    CREATE TABLE standings (             -- where each label stands: follows from its log
+        label INTEGER PRIMARY KEY REFERENCES labels,
+        last INTEGER NOT NULL,           -- its last operation
+        revision INTEGER NOT NULL,       -- its last operation that is more than a look
+        status TEXT NOT NULL,
+        tags TEXT NOT NULL,              -- JSON
+        seconds REAL NOT NULL
+    );
+    CREATE TABLE checkpoints (           -- all that follows from a log up to some operation
+        label INTEGER PRIMARY KEY REFERENCES labels,
+        state BLOB NOT NULL
+    );
+    CREATE TRIGGER operations_move AFTER INSERT ON operations  -- however one gets in
+        BEGIN DELETE FROM standings WHERE label = new.label; END;
+    """,
 )
 """What leads from each version of the schema to the next; the number of them is the version."""
 

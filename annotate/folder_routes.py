@@ -22,13 +22,14 @@ _SHEET = 24  # strips a page
 def photos(bench: Bench) -> PhotoList:
     """All photos, in the order in which they are labelled."""
     who = bench.assignment
+    cards = bench.cards()
     return PhotoList(
         folder=bench.store.folder.resolve().name,
         annotator=who.annotator,
         number=who.number,
         tags=TAGS,
-        photos=_shown(bench, bench.cards()),
-        progress=ShownProgress.of(bench.progress()),
+        photos=_shown(bench, cards),
+        progress=ShownProgress.of(bench.progress(cards)),
     )
 
 

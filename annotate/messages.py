@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from annotate.labels import ORIGINS
-from annotate.operations import Operation, Place, Status
+from annotate.operations import Operation, Place, Status, spoken
 from annotate.session import Session
 from annotate.store import Card
 from annotate.workbench import Progress
@@ -19,6 +19,10 @@ Revision = Annotated[int, Field(ge=-1, le=2**62)]
 """The revision that a request was made on; -1 for any."""
 
 
+RequestId = Annotated[str, Field(pattern=r"^[A-Za-z0-9-]{1,64}$")]
+"""Made by the page for each change: when it comes again, it is the same change, done once."""
+
+
 class _Request(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
 
@@ -26,6 +30,7 @@ class _Request(BaseModel):
 class Apply(_Request):
     """Do an operation."""
 
+    id: RequestId
     revision: Revision
     operation: Operation
 
@@ -33,6 +38,7 @@ class Apply(_Request):
 class Step(_Request):
     """Undo or redo."""
 
+    id: RequestId
     revision: Revision
 
 
@@ -139,12 +145,18 @@ class Document(BaseModel):
     forbidden: list[ShownStroke]
     can_undo: bool
     can_redo: bool
+    undo_what: str | None
+    """What undo will take back, in words: ``the anchor``, ``accepted``."""
+
+    kept: int | None
+    """The revision that the change got which this answers; None where it answers none."""
+
     origins: dict[str, int]
     doubtful: int | None
     """A column that a diagnosis asks to look at."""
 
     @classmethod
-    def of(cls, session: Session, doubtful: int | None) -> Document:
+    def of(cls, session: Session, doubtful: int | None, kept: int | None = None) -> Document:
         """Show a session; hold its lock meanwhile."""
         wire, state, edits = session.wire, session.state, session.wire.edits
         counts = np.bincount(wire.origin, minlength=len(ORIGINS)).tolist()
@@ -154,7 +166,7 @@ class Document(BaseModel):
             width=session.photo.width,
             height=session.photo.height,
             revision=state.revision,
-            status=state.status,  # type: ignore[arg-type]  # the log holds nothing else
+            status=state.status,
             tags=state.tags,
             blind=session.blind,
             rows=None if wire.empty else wire.skyline.rows.astype(int).tolist(),
@@ -162,8 +174,10 @@ class Document(BaseModel):
             anchors=sorted(edits.anchors.items()),
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
             forbidden=[ShownStroke(**vars(one)) for one in edits.strokes],
-            can_undo=bool(state.done),
-            can_redo=bool(state.undone),
+            can_undo=bool(state.steps),
+            can_redo=bool(state.taken),
+            undo_what=spoken(state.steps[-1].change) if state.steps else None,
+            kept=kept,
             origins=dict(zip(ORIGINS, counts, strict=True)),
             doubtful=doubtful,
         )

@@ -1,7 +1,7 @@
 """What an annotator can do to a photo, as it is sent by the page and kept in the log.
 
 Each operation is checked for form here (types, sizes) and for sense where it is applied, by `Edits`
-and by the live wire.
+and by the live wire. What undo takes back is told in the words of `spoken`.
 """
 
 from __future__ import annotations
@@ -153,27 +153,66 @@ class Open(_Operation):
     kind: Literal["open"] = "open"
 
 
+class Undo(_Operation):
+    """What was done last is taken back."""
+
+    kind: Literal["undo"] = "undo"
+    status: bool = False
+    """Whether changes of the status count, too, and an edit gives back the status that was before
+    it. Logs of version 1 know no such undo: theirs takes back the last edit, and nothing else."""
+
+
+class Redo(_Operation):
+    """What was taken back is done again."""
+
+    kind: Literal["redo"] = "redo"
+    status: bool = False
+    """Whether changes of the status count, too, as for `Undo`."""
+
+
 Edit: TypeAlias = Annotated[
     SetAnchor | MoveAnchor | RemoveAnchor | Forbid | Straight | Draw | Hide | Release,
     Field(discriminator="kind"),
 ]
-"""What changes the line, and can be undone."""
+"""What changes the line."""
 
-Operation: TypeAlias = Annotated[
-    SetAnchor
-    | MoveAnchor
-    | RemoveAnchor
-    | Forbid
-    | Straight
-    | Draw
-    | Hide
-    | Release
-    | SetTag
-    | SetStatus
-    | Open,
-    Field(discriminator="kind"),
-]
-"""Anything that is kept in the log, but for undo and redo."""
+Change: TypeAlias = Edit | SetStatus
+"""What can be undone."""
+
+Operation: TypeAlias = Annotated[Edit | SetTag | SetStatus | Open, Field(discriminator="kind")]
+"""Anything that the page does to a photo, but for undo and redo."""
+
+Logged: TypeAlias = Annotated[Operation | Undo | Redo, Field(discriminator="kind")]
+"""Anything that is kept in the log."""
 
 EDIT: TypeAdapter[Edit] = TypeAdapter(Edit)
-"""Reads an edit from the log."""
+"""Reads an edit from JSON."""
+
+LOGGED: TypeAdapter[Logged] = TypeAdapter(Logged)
+"""Reads an operation from the log."""
+
+_SPOKEN = {
+    "anchor": "the anchor",
+    "move": "the move of the anchor",
+    "remove": "the removal of the anchor",
+    "forbid": "the brush stroke",
+    "straight": "the straight span",
+    "drawn": "the drawn span",
+    "hidden": "the hidden columns",
+    "release": "the release of the columns",
+}
+
+
+def spoken(change: Change) -> str:
+    """What was done, in words that follow *undo*: ``the anchor``, ``accepted``.
+
+    >>> spoken(SetAnchor(column=3, row=4)), spoken(SetStatus(status="accepted"))
+    ('the anchor', 'accepted')
+    """
+    if isinstance(change, SetStatus):
+        return change.status
+    if isinstance(change, Forbid) and change.allow:
+        return "the eraser stroke"
+    if isinstance(change, Hide) and not change.hidden:
+        return "the columns shown again"
+    return _SPOKEN[change.kind]

@@ -22,6 +22,7 @@ from annotate.messages import (
 from annotate.session import Session
 from annotate.store import StaleError
 from annotate.workbench import Workbench
+from skyline_viz.photo import PhotoError
 
 router = APIRouter(prefix="/photos/{photo}")
 
@@ -71,19 +72,21 @@ def alternatives(bench: Bench, photo: PhotoId, column: Column) -> Alternatives:
 @router.post("/operations")
 def operate(bench: Bench, photo: PhotoId, asked: Apply) -> Document:
     """Do something to a photo. When this is answered, it is on the disk."""
-    return _change(bench, photo, lambda session: session.apply(asked.operation, asked.revision))
+    return _change(
+        bench, photo, lambda session: session.apply(asked.operation, asked.revision, asked.id)
+    )
 
 
 @router.post("/undo")
 def undo(bench: Bench, photo: PhotoId, asked: Step) -> Document:
-    """Take the last edit back."""
-    return _change(bench, photo, lambda session: session.undo(asked.revision))
+    """Take the last edit or status back."""
+    return _change(bench, photo, lambda session: session.undo(asked.revision, asked.id))
 
 
 @router.post("/redo")
 def redo(bench: Bench, photo: PhotoId, asked: Step) -> Document:
     """Do again what was taken back."""
-    return _change(bench, photo, lambda session: session.redo(asked.revision))
+    return _change(bench, photo, lambda session: session.redo(asked.revision, asked.id))
 
 
 @router.post("/rerun")
@@ -97,14 +100,18 @@ def rerun(bench: Bench, stages: Stages, photo: PhotoId, _: Nothing) -> Viewer:
     return Viewer(url=stages.show(bench.detection(photo), line, session.photo.name))
 
 
-def _change(bench: Workbench, photo: int, how: Callable[[Session], None]) -> Document:
+def _change(bench: Workbench, photo: int, how: Callable[[Session], int]) -> Document:
     session = bench.session(photo)
     try:
         with session.lock:
-            how(session)
-            document = Document.of(session, bench.doubts.get(photo))
-    except StaleError:
-        bench.close_photo(photo)  # another program may have changed the labels
+            kept = how(session)
+            document = Document.of(session, bench.doubts.get(photo), kept)
+    except StaleError as error:
+        if error.revision != session.state.revision:  # another program has changed the label
+            bench.close_photo(photo)
+        raise
+    except PhotoError:
+        bench.close_photo(photo)  # to be read again
         raise
     bench.refresh(session)
     return document

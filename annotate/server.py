@@ -17,6 +17,7 @@ from annotate.database import StoreError
 from annotate.edits import EditError
 from annotate.formats import FormatError
 from annotate.learning import Learner
+from annotate.log import LogError
 from annotate.security import Guard
 from annotate.stage_viewer import StageViewer
 from annotate.store import StaleError
@@ -38,6 +39,7 @@ _STATUSES: dict[type[Exception], int] = {
     MethodError: 422,
     FormatError: 422,
     StoreError: 507,
+    LogError: 422,
     ViewerError: 503,
 }
 
@@ -84,7 +86,10 @@ def _page() -> FileResponse:
 def _sentence(status: int) -> Callable[[Request, Exception], JSONResponse]:
     def answer(_: Request, error: Exception) -> JSONResponse:
         said = str(error)
-        return JSONResponse({"detail": said if said.endswith(".") else f"{said}."}, status)
+        body: dict[str, str | int] = {"detail": said if said.endswith(".") else f"{said}."}
+        if isinstance(error, StaleError):
+            body["revision"] = error.revision
+        return JSONResponse(body, status)
 
     return answer
 

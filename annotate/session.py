@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
-from annotate.edits import Edits
+import numpy as np
+
+from annotate.edits import EditError, Edits
+from annotate.kept_states import Request, StaleError
 from annotate.lines import Line
 from annotate.live_wire import LiveWire
-from annotate.operations import Edit, Open, Operation, SetStatus, SetTag
-from annotate.store import Photo, StaleError, Store
+from annotate.operations import Logged, Open, Operation, Redo, SetStatus, SetTag, Undo
+from annotate.store import Photo, Store
 from skyline_viz.arrays import U8
 from skyline_viz.constraints import PathError
 from skyline_viz.methods.protocol import Method
@@ -40,6 +41,7 @@ class Session:
         self.photo, self.label, self.blind = photo, label, blind
         self.lock = threading.RLock()
         self._store = store
+        self._file = _identity(store.folder, photo)
         self.pixels: U8 = read_whole(store.folder, photo)
         kept = store.detector(label)
         self.detector = kept if kept and store.state(label).revision else detector
@@ -51,62 +53,102 @@ class Session:
             self.state = store.state(label)
         self._resume()
 
-    def apply(self, operation: Operation, revision: int) -> None:
+    def apply(self, operation: Operation, revision: int, id: str | None = None) -> int:  # noqa: A002
         """Do something, and keep it: when this returns, it is on the disk.
 
+        Args:
+            operation: What to do.
+            revision: The revision that it was made on; -1 for any.
+            id: What it is known by when it comes again; nothing is done then.
+
+        Returns:
+            The revision that it got, now or when it came first.
+
         Raises:
-            StaleError: The photo has another revision.
+            StaleError: The photo has another revision, or the id is another operation's.
             EditError: It makes no sense for the photo.
             PathError: No line is possible then.
+            PhotoError: The photo's file holds other pixels than those that are open.
             StoreError: It could not be kept. In all cases nothing has changed.
         """
-        body = operation.model_dump(mode="json", by_alias=True, exclude={"kind"})
+        revision = -1 if isinstance(operation, Open) else revision  # to look at it needs none
         with self.lock:
-            self._require(revision)
+            asked = self._asked(operation, revision, id)
+            kept = self._store.known(asked)
+            if kept is not None:
+                return kept
+            self._require_same_photo()
             if isinstance(operation, SetTag | SetStatus | Open):
-                self._append(operation.kind, body, None)
-            else:
-                self._edit(operation.on(self.wire.edits), operation.kind, body)
+                return self._append(asked, None)
+            return self._edit(operation.on(self.wire.edits), asked)
 
-    def undo(self, revision: int) -> None:
-        """Take the last edit back; raises as `apply` does."""
-        self._step("undo", revision)
+    def undo(self, revision: int, id: str | None = None) -> int:  # noqa: A002
+        """Take the last edit or status back; arguments, result and errors are those of `apply`."""
+        return self._step(Undo(status=True), revision, id)
 
-    def redo(self, revision: int) -> None:
-        """Do again what was taken back; raises as `apply` does."""
-        self._step("redo", revision)
+    def redo(self, revision: int, id: str | None = None) -> int:  # noqa: A002
+        """Do again what was taken back; arguments, result and errors are those of `apply`."""
+        return self._step(Redo(status=True), revision, id)
 
     def refresh(self) -> None:
         """Do now what the next preview would wait for."""
         with self.lock:
             self.wire.refresh()
 
-    def _step(self, kind: str, revision: int) -> None:
+    def _step(self, operation: Undo | Redo, revision: int, known_by: str | None) -> int:
         with self.lock:
-            self._require(revision)
-            done, undone = self.state.done, self.state.undone
-            if not (done if kind == "undo" else undone):
-                raise StaleError(f"there is nothing to {kind}.")
-            done = done[:-1] if kind == "undo" else (*done, undone[-1])
-            self._edit(folded(done, self.wire), kind, {})
+            asked = self._asked(operation, revision, known_by)
+            kept = self._store.known(asked)
+            if kept is not None:
+                return kept
+            self._require_same_photo()
+            state = self.state
+            if not (state.steps if isinstance(operation, Undo) else state.taken):
+                raise EditError(f"there is nothing to {operation.kind}.")
+            after = state.after(operation, 0.0, 0).edits
+            if after == state.edits:  # a status: the line stays, whoever has solved it
+                return self._append(asked, self._kept_line())
+            return self._edit(after, asked)
 
-    def _edit(self, edits: Edits, kind: str, body: dict[str, Any]) -> None:
+    def _edit(self, edits: Edits, asked: Request) -> int:
         before = self.wire.edits
         self.wire.edits = edits
         try:
-            self._append(kind, body, None if self.wire.empty else self._line())
+            return self._append(asked, self._kept_line())
         except BaseException:
             self.wire.edits = before
             raise
 
-    def _append(self, kind: str, body: dict[str, Any], line: Line | None) -> None:
-        revision = -1 if kind == "open" else self.state.revision
-        self._store.append(self.label, revision, kind, body, line)
-        self.state = self._store.state(self.label)
+    def _append(self, asked: Request, line: Line | None) -> int:
+        """Keep an operation that fits the state which is open."""
+        before = self.state
+        revision = -1 if asked.kind == "open" else before.revision
+        kept = self._store.append(self.label, revision, asked.kind, asked.body, line, asked.id)
+        after = self._store.state(self.label)
+        if after.count != before.count + 1:  # somebody else works on this label
+            raise StaleError("the photo was changed elsewhere meanwhile.", after.revision)
+        self.state = after
+        return kept
 
-    def _require(self, revision: int) -> None:
-        if revision not in (-1, self.state.revision):
-            raise StaleError("the photo was changed in another tab, and is shown as it is now.")
+    def _asked(self, operation: Logged, revision: int, known_by: str | None) -> Request:
+        body = operation.model_dump(mode="json", by_alias=True, exclude={"kind"})
+        return Request(self.label, revision, operation.kind, body, known_by)
+
+    def _require_same_photo(self) -> None:
+        """Make sure that the file still holds the pixels on which somebody works.
+
+        Raises:
+            PhotoError: It does not, or is gone.
+        """
+        found = _identity(self._store.folder, self.photo)
+        if found == self._file:
+            return
+        if not np.array_equal(read_whole(self._store.folder, self.photo), self.pixels):
+            raise PhotoError(f"{self.photo.name} has been replaced by another photo meanwhile.")
+        self._file = found  # only touched, or its metadata changed
+
+    def _kept_line(self) -> Line | None:
+        return None if self.wire.empty else self._line()
 
     def _line(self) -> Line:
         return Line(self.wire.skyline, self.wire.origin)
@@ -128,14 +170,6 @@ class Session:
                 self.wire.hide(first, last)
 
 
-def folded(done: Iterable[Edit], wire: LiveWire) -> Edits:
-    """Edits that hold after some operations."""
-    edits = Edits(wire.height, wire.width)
-    for edit in done:
-        edits = edit.on(edits)
-    return edits
-
-
 def read_whole(folder: Path, photo: Photo) -> U8:
     """Read a photo, and make sure that it is still the one that was labelled.
 
@@ -149,3 +183,12 @@ def read_whole(folder: Path, photo: Photo) -> U8:
             f"is {pixels.shape[1]}x{pixels.shape[0]}."
         )
     return pixels
+
+
+def _identity(folder: Path, photo: Photo) -> tuple[int, int, int]:
+    """What changes when a photo's file is replaced or rewritten: size, time of change, inode."""
+    try:
+        status = (folder / photo.name).stat()
+    except OSError as error:
+        raise PhotoError(f"{photo.name} cannot be read any more: {error.strerror}.") from error
+    return status.st_size, status.st_mtime_ns, status.st_ino

@@ -1,8 +1,8 @@
 """The labels of a folder: photos, and the log of what was done to each, which only grows.
 
 A photo is known by the SHA-256 of its file, so a folder that was moved or renamed finds its labels.
-A label is one pass of one annotator over a photo. Its state follows from its log: undo and redo are
-operations, too, and move a cursor in it.
+A label is one pass of one annotator over a photo. Its state follows from its log, and is kept
+beside it (`kept_states`).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import sqlite3
 import threading
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import time
 from typing import Any
@@ -21,19 +21,28 @@ from typing import Any
 import numpy as np
 
 from annotate.database import NAME, connect, sentences
-from annotate.edits import Edits
 from annotate.folder import photos_below
 from annotate.kept_detectors import pack, unpack
+from annotate.kept_states import (
+    KeptStates,
+    Request,
+    StaleError,
+    Standing,
+    add,
+    known,
+    last_line,
+    missing,
+    renew,
+    revision,
+    standings,
+)
 from annotate.labels import Label
 from annotate.lines import Line
-from annotate.log import cursor, summary
-from annotate.operations import Edit
+from annotate.log import State
 from skyline_viz.methods.protocol import Method
 from skyline_viz.photo import PhotoError, photo_size
 
-
-class StaleError(ValueError):
-    """The label has been changed since it was read, by another tab or program."""
+__all__ = ["Card", "Photo", "StaleError", "State", "Store"]
 
 
 @dataclass(frozen=True)
@@ -64,30 +73,8 @@ class Card:
 
     blind: bool
     seconds: float
-
-
-@dataclass(frozen=True, eq=False)
-class State:
-    """Where a label stands."""
-
-    revision: int
-    """The id of its last operation; 0 before the first one."""
-
-    edits: Edits
-    """What holds."""
-
-    line: Line | None
-    """The line as it was acknowledged; None where nothing has been proposed or drawn."""
-
-    done: tuple[Edit, ...]
-    """Edits that hold, oldest first."""
-
-    undone: tuple[Edit, ...]
-    """Edits that were taken back, the next one to redo last."""
-
-    status: str
-    tags: tuple[str, ...]
-    seconds: float
+    problem: str = ""
+    """A sentence that says why its log cannot be read, if so."""
 
 
 class Store:
@@ -102,6 +89,7 @@ class Store:
         self.folder = folder
         self._lock = threading.RLock()
         self._connection = connect(folder)
+        self._states = KeptStates()
         self.problems: list[str] = []
         """A sentence for each file that `find` had to leave out."""
 
@@ -185,8 +173,10 @@ class Store:
             StaleError: Somebody has worked on it already.
         """
         with self._writing() as database:
-            if _revision(database, label):
-                raise StaleError("the photo has been worked on, so its proposal stays as it is.")
+            if now := revision(database, label):
+                raise StaleError(
+                    "the photo has been worked on, so its proposal stays as it is.", now
+                )
             made_by = None if detector is None else _keep_detector(database, detector)
             database.execute(
                 "UPDATE labels SET proposal = ?, detector = ?, margin = ? WHERE id = ?",
@@ -206,7 +196,13 @@ class Store:
         return unpack(*row)
 
     def append(
-        self, label: int, revision: int, kind: str, body: dict[str, Any], line: Line | None = None
+        self,
+        label: int,
+        revision: int,
+        kind: str,
+        body: dict[str, Any],
+        line: Line | None = None,
+        id: str | None = None,  # noqa: A002
     ) -> int:
         """Add an operation to the log of a label. When this returns, it is on the disk.
 
@@ -216,23 +212,33 @@ class Store:
             kind: What it is.
             body: The operation itself, for JSON.
             line: The line after it, where it changes the line.
+            id: What it is known by when it comes again; nothing is added then.
 
         Returns:
-            The new revision.
+            The revision that it got, now or when it came first.
 
         Raises:
-            StaleError: The label has another revision by now.
+            StaleError: The label has another revision by now, or the id is another operation's.
+            EditError: It makes no sense for the photo.
             StoreError: The disk is full, or the file cannot be written; nothing was added.
         """
+        asked = Request(label, revision, kind, body, id)
         with self._writing() as database:
-            last = _revision(database, label)
-            if revision not in (-1, last):
-                raise StaleError("the photo was changed in another tab, and is shown as it is now.")
-            cursor = database.execute(
-                "INSERT INTO operations (label, at, kind, body, line) VALUES (?, ?, ?, ?, ?)",
-                (label, time(), kind, _json(kind, body), line and line.packed()),
-            )
-            return int(cursor.lastrowid or 0)
+            before = known(database, asked)
+            if before is not None:
+                return before
+            state = add(database, asked, self._states.read(database, label), time(), line)
+        self._states.remember(label, state)
+        return state.revision
+
+    def known(self, asked: Request) -> int | None:
+        """Revision that an operation got when it came before; None when it may be done.
+
+        Raises:
+            StaleError: As `append` does.
+        """
+        with self._reading() as database:
+            return known(database, asked)
 
     def insert(
         self, label: int, log: Iterable[tuple[float, str, dict[str, Any]]], line: Line
@@ -249,8 +255,8 @@ class Store:
         """
         rows = [(label, at, kind, _json(kind, body), None) for at, kind, body in log]
         with self._writing() as database:
-            if _revision(database, label):
-                raise StaleError("the photo has been worked on, so nothing is imported.")
+            if now := revision(database, label):
+                raise StaleError("the photo has been worked on, so nothing is imported.", now)
             for number, row in enumerate(rows, 1):
                 whole = (*row[:-1], line.packed()) if number == len(rows) else row
                 database.execute(
@@ -259,52 +265,39 @@ class Store:
                 )
 
     def state(self, label: int) -> State:
-        """Where a label stands."""
+        """Where a label stands.
+
+        Raises:
+            LogError: Its log cannot be read.
+        """
         with self._reading() as database:
-            width, height, proposal = database.execute(
-                "SELECT width, height, proposal FROM labels JOIN photos ON photos.id = photo"
-                " WHERE labels.id = ?",
-                (label,),
-            ).fetchone()
-            rows = database.execute(
-                "SELECT kind, body, at FROM operations WHERE label = ? ORDER BY id", (label,)
-            ).fetchall()
-            kept = database.execute(
-                "SELECT line FROM operations WHERE label = ? AND line IS NOT NULL"
-                " ORDER BY id DESC LIMIT 1",
-                (label,),
-            ).fetchone()
-            revision = _revision(database, label)
-        done, undone = cursor(rows)
-        edits = Edits(height, width)
-        for edit in done:
-            edits = edit.on(edits)
-        blob = kept[0] if kept else proposal
-        line = Line.unpacked(blob) if blob else None
-        status, tags, seconds = summary(rows)
-        return State(revision, edits, line, tuple(done), tuple(undone), status, tags, seconds)
+            state = self._states.read(database, label)
+            return state if state.revision else replace(state, line=last_line(database, label))
+
+    def line(self, label: int) -> Line | None:
+        """The line of a label as it was acknowledged; None where there is none."""
+        with self._reading() as database:
+            return last_line(database, label)
 
     def cards(self, annotator: str, number: int) -> dict[int, Card]:
         """Labels of a pass in short, by the id of their photo, for all photos."""
+        problems = self._complete()
         with self._reading() as database:
             labels = database.execute(
                 "SELECT photo, id, margin, blind FROM labels WHERE annotator = ? AND number = ?",
                 (annotator, number),
             ).fetchall()
-            logs: dict[int, list[tuple[str, str, float]]] = {}
-            for label, *row in database.execute(
-                "SELECT label, kind, iif(kind IN ('status', 'tag'), body, ''), at FROM operations"
-                " WHERE label IN (SELECT id FROM labels WHERE annotator = ? AND number = ?)"
-                " ORDER BY id",
-                (annotator, number),
-            ):
-                logs.setdefault(label, []).append((row[0], row[1], row[2]))
+            stand = dict(standings(database, annotator, number))
         begun = {photo: rest for photo, *rest in labels}
         cards = {}
         for photo in self.photos():
             label, margin, blind = begun.get(photo.id, (None, None, False))
-            status, tags, seconds = summary(logs.get(label or 0, []))
-            cards[photo.id] = Card(photo, label, status, tags, margin, bool(blind), seconds)
+            problem = problems.get(label or 0, "")
+            fresh = Standing("needs review" if problem else "to do", (), 0.0)
+            one = stand.get(label or 0, fresh)
+            cards[photo.id] = Card(
+                photo, label, one.status, one.tags, margin, bool(blind), one.seconds, problem
+            )
         return cards
 
     def passes(self) -> list[tuple[str, int]]:
@@ -355,6 +348,15 @@ class Store:
                 blind=bool(blind),
             )
 
+    def _complete(self) -> dict[int, str]:
+        """Make standings that are missing; return why some labels have none, by their id."""
+        with self._reading() as database:
+            labels = missing(database)
+        if not labels:
+            return {}
+        with self._writing() as database:
+            return renew(database, labels)
+
     @contextmanager
     def _reading(self) -> Iterator[sqlite3.Connection]:
         with self._lock, sentences(self.folder / NAME):
@@ -375,13 +377,6 @@ class Store:
 
 def _json(kind: str, body: dict[str, Any]) -> str:
     return json.dumps({**body, "kind": kind})
-
-
-def _revision(database: sqlite3.Connection, label: int) -> int:
-    row = database.execute(
-        "SELECT max(id) FROM operations WHERE label = ? AND kind != 'open'", (label,)
-    ).fetchone()
-    return int(row[0] or 0)
 
 
 def _keep_detector(database: sqlite3.Connection, detector: Method) -> int:

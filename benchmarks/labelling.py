@@ -13,7 +13,7 @@ from benchmarks.table import markdown
 from skyline_viz import Detector, Skyline, open_dataset, train
 from skyline_viz.metrics import column_errors
 from skyline_viz.photo import PHOTO_SUFFIXES, PhotoError, photo_size, write_photo
-from tests.labelling import hills, served
+from tests.labelling import asked, hills, served
 
 GOAL = 1.0  # A_err in pixels at which the robot stops
 MOST = 100  # clicks after which it gives up
@@ -131,7 +131,7 @@ def _used(client, photos: int, size: str) -> dict[str, list[float]]:
             row = min(max(aim, 0), document["height"] - 1)
             timed("preview", "POST", "/api/photos/1/preview", json={"column": column, "row": row})
         operation = {"kind": "anchor", "column": column, "row": row}
-        body = {"revision": document["revision"], "operation": operation}
+        body = asked(document["revision"], operation=operation)
         where = "/api/photos/1/operations"
         document = timed("click to new line", "POST", where, json=body).json()
     for photo in range(2, photos + 1):

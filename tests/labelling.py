@@ -2,6 +2,7 @@
 
 import threading
 import time
+import uuid
 from contextlib import contextmanager
 
 import httpx
@@ -42,6 +43,11 @@ def write_hills(folder, count=3, **size):
 def workbench(folder, annotator="ann", detector=DETECTOR, **how):
     """A workbench over a folder."""
     return Workbench(Store(folder), detector, Assignment(annotator, **how))
+
+
+def asked(revision=-1, **body):
+    """What the page sends for a change: ``operation=...``, or nothing more for undo and redo."""
+    return {"id": str(uuid.uuid4()), "revision": revision, **body}
 
 
 @contextmanager

@@ -93,6 +93,8 @@ def test_imported_labels_can_be_edited_on(folder, tmp_path):
     assert session.state.status == "accepted"
     assert set(session.wire.skyline.rows) == {11}
     session.undo(-1)
+    assert session.state.status == "in progress"
+    session.undo(-1)
     assert len(set(session.wire.skyline.rows)) > 1
     bench.close()
 

@@ -15,7 +15,7 @@ import httpx
 from annotate.database import NAME
 from annotate.security import TOKEN_HEADER
 from annotate.store import Store
-from tests.labelling import write_hills
+from tests.labelling import asked, write_hills
 
 KILLS = 12
 OPERATIONS = 1000
@@ -50,12 +50,12 @@ def test_nothing_acknowledged_is_lost_when_the_server_is_killed(tmp_path):
                 column, row = chance.randrange(70), chance.randrange(48)
                 kind = chance.choice(["anchor", "anchor", "tag", "undo"])
                 if kind == "undo":
-                    said = client.post("/api/photos/1/undo", json={"revision": -1})
+                    said = client.post("/api/photos/1/undo", json=asked())
                 else:
                     operation = {"kind": "anchor", "column": column, "row": row}
                     if kind == "tag":
                         operation = {"kind": "tag", "tag": f"t{column}", "on": bool(row % 2)}
-                    body = {"revision": -1, "operation": operation}
+                    body = asked(operation=operation)
                     said = client.post("/api/photos/1/operations", json=body)
                 if said.status_code == 200:
                     acknowledged.append((said.json()["revision"], said.json()["rows"]))

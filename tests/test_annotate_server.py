@@ -11,7 +11,7 @@ from annotate.database import StoreError
 from annotate.operations import Draw, SetAnchor, SetTag
 from annotate.store import Store
 from skyline_viz.photo import read_photo
-from tests.labelling import TOKEN, hills, served, workbench, write_hills
+from tests.labelling import TOKEN, asked, hills, served, workbench, write_hills
 
 ROUTES = [
     ("GET", "/"),
@@ -57,7 +57,7 @@ def fresh(tmp_path):
 
 
 def do(client, photo, operation, revision=-1):
-    body = {"revision": revision, "operation": operation}
+    body = asked(revision, operation=operation)
     return client.post(f"/api/photos/{photo}/operations", json=body)
 
 
@@ -90,10 +90,10 @@ def test_labelling_a_photo_from_proposal_to_acceptance(fresh):
     assert after["rows"][first : first + len(rows)] == rows
     assert after["rows"][:first] == before["rows"][:first]
     assert after["status"] == "in progress"
-    undone = fresh.post("/api/photos/1/undo", json={"revision": after["revision"]}).json()
+    undone = fresh.post("/api/photos/1/undo", json=asked(after["revision"])).json()
     assert undone["rows"] == before["rows"]
     assert undone["can_redo"]
-    redone = fresh.post("/api/photos/1/redo", json={"revision": undone["revision"]}).json()
+    redone = fresh.post("/api/photos/1/redo", json=asked(undone["revision"])).json()
     assert redone["rows"] == after["rows"]
     do(fresh, 1, {"kind": "tag", "tag": "needs terrain data", "on": True})
     accepted = do(fresh, 1, {"kind": "status", "status": "accepted"}).json()
@@ -113,8 +113,8 @@ def test_what_was_acknowledged_is_there_after_a_restart(tmp_path):
         assert kept["hidden"] == [[0, 5]]
         assert kept["rows"][64:67] == [7, 8, 9]
     with served(folder) as client:
-        assert client.get("/api/photos/1").json() == kept
-        undone = client.post("/api/photos/1/undo", json={"revision": kept["revision"]}).json()
+        assert client.get("/api/photos/1").json() == {**kept, "kept": None}
+        undone = client.post("/api/photos/1/undo", json=asked(kept["revision"])).json()
         assert [span["kind"] for span in undone["spans"]] == ["straight"]
 
 
@@ -123,7 +123,8 @@ def test_an_old_revision_is_refused(fresh):
     second = do(fresh, 1, {"kind": "anchor", "column": 30, "row": 40}, 0)
     assert second.status_code == 409
     assert "another tab" in second.json()["detail"]
-    assert fresh.get("/api/photos/1").json() == first.json()
+    assert second.json()["revision"] == first.json()["revision"]
+    assert fresh.get("/api/photos/1").json() == {**first.json(), "kept": None}
 
 
 def test_pictures_show_the_photo(client, folder):
@@ -295,20 +296,25 @@ def test_changes_need_json_of_a_limited_size(client, route):
         b"[" * 100_000,
         b"null",
         b"\xff\xfe",
-        b'{"revision": 0}',
-        b'{"revision": 0, "operation": {}}',
-        b'{"revision": 0, "operation": {"kind": "drop table"}}',
-        b'{"revision": "0", "operation": {"kind": "open"}}',
-        b'{"revision": 0, "operation": {"kind": "anchor", "column": 1e400, "row": 1}}',
-        b'{"revision": 0, "operation": {"kind": "anchor", "column": NaN, "row": 1}}',
-        b'{"revision": 0, "operation": {"kind": "anchor", "column": 1.5, "row": 1}}',
-        b'{"revision": 0, "operation": {"kind": "anchor", "column": 7, "row": 1, "x": 1}}',
-        b'{"revision": 0, "operation": {"kind": "anchor", "column": 700, "row": 1}}',
-        b'{"revision": 0, "operation": {"kind": "remove", "column": 7}}',
-        b'{"revision": 0, "operation": {"kind": "status", "status": "done"}}',
-        b'{"revision": 0, "operation": {"kind": "tag", "tag": "a\\u0000b"}}',
-        b'{"revision": 0, "operation": {"kind": "drawn", "first": 0, "rows": []}}',
-        b'{"revision": 0, "operation": {"kind": "forbid", "points": [[1]], "radius": 3}}',
+        b'{"id": "a", "revision": 0}',
+        b'{"revision": 0, "operation": {"kind": "open"}}',
+        b'{"id": "", "revision": 0, "operation": {"kind": "open"}}',
+        b'{"id": "a b", "revision": 0, "operation": {"kind": "open"}}',
+        b'{"id": 7, "revision": 0, "operation": {"kind": "open"}}',
+        b'{"id": "%s", "revision": 0, "operation": {"kind": "open"}}' % (b"a" * 65),
+        b'{"id": "a", "revision": 0, "operation": {}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "drop table"}}',
+        b'{"id": "a", "revision": "0", "operation": {"kind": "open"}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "anchor", "column": 1e400, "row": 1}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "anchor", "column": NaN, "row": 1}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "anchor", "column": 1.5, "row": 1}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "open", "x": 1}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "anchor", "column": 700, "row": 1}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "remove", "column": 7}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "status", "status": "done"}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "tag", "tag": "\\u0000"}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "drawn", "first": 0, "rows": []}}',
+        b'{"id": "a", "revision": 0, "operation": {"kind": "forbid", "points": [[1]]}}',
     ],
 )
 def test_malformed_operations_are_one_sentence(client, body):

@@ -125,7 +125,7 @@ class Open:
             say(problem, PROGRAM)
         if self.order == "margin":
             propose_all(bench)
-        progress = bench.progress()
+        progress = bench.progress(bench.cards())
         left = progress.total - progress.done
         print(f"{counted(progress.total, 'photo')} in {self.folder}, {left} to label.")
         serve(bench, self.host, self.port, browser=not self.no_browser)
