@@ -84,6 +84,10 @@ MIGRATIONS = (
     CREATE TRIGGER operations_move AFTER INSERT ON operations  -- however one gets in
         BEGIN DELETE FROM standings WHERE label = new.label; END;
     """,
+    """
+    CREATE TABLE folder (id TEXT NOT NULL);  -- tells these labels from those of other folders
+    INSERT INTO folder VALUES (lower(hex(randomblob(16))));
+    """,
 )
 """What leads from each version of the schema to the next; the number of them is the version."""
 

@@ -90,6 +90,8 @@ class Store:
         self._lock = threading.RLock()
         self._connection = connect(folder)
         self._states = KeptStates()
+        self.id: str = self._connection.execute("SELECT id FROM folder").fetchone()[0]
+        """What tells these labels from those of other folders; a copy of the file has it, too."""
         self.problems: list[str] = []
         """A sentence for each file that `find` had to leave out."""
 

@@ -21,6 +21,7 @@ const REFUSED = new Set([400, 403, 404, 405, 409, 410, 413, 415, 422]); // askin
  * @property {object | null} operation - With `operations`.
  * @property {number} revision - That it was made on; -1 for any.
  * @property {string} says - What it is, for people.
+ * @property {string} tab - In which tab it was made: what it was made on is what that tab showed.
  * @property {boolean} [quiet] - Nothing that somebody did: not counted, not kept over a reload, not missed.
  */
 
@@ -40,6 +41,7 @@ export class Queue extends EventTarget {
   lost = [];
   /** Why what waits is still waiting; empty while it is on its way. */
   reason = "";
+  #tab = newId();
   #items = [];
   #ends = new Map(); // by id: what is told when an item is kept or lost
   #shelf = null;
@@ -85,11 +87,11 @@ export class Queue extends EventTarget {
   /**
    * Send an operation when its turn has come.
    *
-   * @param {Omit<Item, "id">} made
+   * @param {Omit<Item, "id" | "tab">} made
    * @returns {Promise<object | null>} The photo's document once it is kept; null when it is refused.
    */
   add(made) {
-    const item = { id: newId(), operation: null, ...made };
+    const item = { id: newId(), tab: this.#tab, operation: null, ...made };
     const ended = new Promise((done) => this.#ends.set(item.id, done));
     this.#items.push(item);
     this.#changed();
@@ -148,10 +150,10 @@ export class Queue extends EventTarget {
   }
 
   #keep(item, document) {
-    const { kept = document.revision } = document;
+    const kept = document.kept ?? document.revision;
     this.#drop([item]);
-    // what was done after it was done on it, and not on what another tab has made of it since
-    if (!item.quiet) for (const next of this.of(item.photo)) next.revision = kept;
+    // what was done after it in its tab was done on it, and not on what others have made of it since
+    if (!item.quiet) for (const next of this.#after(item)) next.revision = kept;
     this.reason = "";
     this.#changed();
     this.#tell("kept", { item, document });
@@ -162,19 +164,27 @@ export class Queue extends EventTarget {
   #refused(item, error) {
     if (!REFUSED.has(error.status)) return false;
     this.reason = "";
-    const waiting = this.#items.filter((one) => one.photo === item.photo);
+    const waiting = this.#after(item);
     if (error.status === 409 && Number.isInteger(error.revision) && error.revision !== item.revision) {
       for (const one of waiting) one.revision = error.revision;
       this.#lose(senseless(waiting, isAccept, true), "the photo was changed meanwhile");
       this.#tell("stale", { photo: item.photo, name: item.name });
     } else if (error.status === 404 || error.status === 410) {
       this.#lose(waiting, error.message);
-    } else if (error.status === 409 && item.what !== "operations") {
+    } else if (item.what !== "operations") {
       this.#lose([{ ...item, quiet: true }], error.message); // nothing to undo: then nothing is missed
     } else {
       this.#lose(senseless(waiting, (one) => one === item, false), error.message);
     }
     return true;
+  }
+
+  /**
+   * An operation, and those on its photo that were made after it in its tab. None of them has been
+   * sent yet, while what another tab has left may be there already.
+   */
+  #after({ photo, tab }) {
+    return this.#items.filter((one) => one.photo === photo && one.tab === tab);
   }
 
   #lose(items, reason) {
