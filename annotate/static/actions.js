@@ -54,15 +54,15 @@ export class Actions extends EventTarget {
 
   /** Give the photo a status, and go on to the next one. */
   finish(status) {
-    return this.#mark(status, true);
+    return this.#set(status, true);
   }
 
   /** Give the photo a status, and stay. */
-  mark(status) {
-    return this.#mark(status, false);
+  setStatus(status) {
+    return this.#set(status, false);
   }
 
-  async #mark(status, goOn) {
+  async #set(status, goOn) {
     const labelling = this.#labelling;
     const photo = this.target();
     if (!photo) return;

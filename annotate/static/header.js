@@ -18,7 +18,7 @@ export class Header {
     actions.addEventListener("change", show);
     sheet.addEventListener("card", show);
     find("status").addEventListener("change", ({ target }) => {
-      actions.mark(target.value);
+      actions.setStatus(target.value);
       target.blur();
       this.show(); // the status is what is kept, not what is wished for
     });

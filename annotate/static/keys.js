@@ -10,7 +10,7 @@ export function keyTable(act) {
     one("Space", "Accept, and show the next photo", () => act.finish("accepted"), " "),
     one("R", "Needs review, next photo", () => act.finish("needs review"), "r"),
     one("Q", "Reject, next photo", () => act.finish("rejected"), "q"),
-    one("C", "Set the photo back: it is to do again", () => act.mark("to do"), "c"),
+    one("C", "Set the photo back: it is to do again", () => act.setStatus("to do"), "c"),
     one("N, Shift+N", "Next, previous uncertain column", (event) => act.uncertain(event.shiftKey ? -1 : 1), "n", "N"),
     one("← →", "Move the column cursor; with Shift 10, with Ctrl 100 columns", (event) =>
       act.moveColumn((event.key === "ArrowLeft" ? -1 : 1) * pace(event)), "ArrowLeft", "ArrowRight"),

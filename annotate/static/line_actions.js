@@ -119,7 +119,7 @@ export function lineActions({ labelling, view, lines, previewer, focus }) {
         labelling.say(error.message, true);
       }
     },
-    putMark() {
+    mark() {
       const [column, row] = place();
       setCursor(column, lines.cursor?.row ?? null);
       lines.mark = { column, row };

@@ -60,7 +60,7 @@ const pointer = new Pointer({ canvas: find("lines"), view, lines, labelling, pre
 const act = {
   ...line,
   finish: (status) => actions.finish(status),
-  mark: (status) => actions.mark(status),
+  setStatus: (status) => actions.setStatus(status),
   undo: () => actions.undo(),
   redo: () => actions.redo(),
   tags: () => actions.tags(),
