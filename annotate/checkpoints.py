@@ -96,7 +96,7 @@ def unpacked(data: bytes, label: int, empty: Edits) -> State | None:
     """
     try:
         found = _Checkpoint.model_validate_json(zlib.decompress(data))
-    except (zlib.error, ValidationError):
+    except (zlib.error, TypeError, ValidationError):  # not compressed, no bytes, or not whole
         return None
     if (found.label, found.height, found.width) != (label, empty.height, empty.width):
         return None

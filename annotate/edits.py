@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from types import MappingProxyType
 from typing import Literal
 
@@ -65,7 +66,7 @@ class Stroke:
     allow: bool = False
     """Whether it is the eraser's."""
 
-    @property
+    @cached_property
     def columns(self) -> tuple[int, int]:
         """First and last column that it may touch."""
         across = [column for column, _ in self.points]
@@ -217,14 +218,21 @@ class Edits:
         return max(first, 0), min(last, self.width - 1)
 
 
-def paint(strokes: Iterable[Stroke], height: int, width: int) -> Bool:
-    """Pixels that strokes forbid, ``(W, H)``, column by column as path tables are."""
-    mask = np.zeros((width, height), np.uint8)
+def paint(strokes: Iterable[Stroke], height: int, width: int, onto: Bool | None = None) -> Bool:
+    """Pixels that strokes forbid, ``(W, H)``, column by column as path tables are.
+
+    Args:
+        strokes: The strokes, in their order.
+        height: Rows of the photo.
+        width: Its columns.
+        onto: Pixels that earlier strokes forbid; it is painted on.
+    """
+    painted: Bool = np.zeros((width, height), np.bool_) if onto is None else onto
+    mask = painted.view(np.uint8)
     for stroke in strokes:
         colour = 0 if stroke.allow else 1
         points = [(row, column) for column, row in stroke.points]  # x runs down a column here
         for start, end in zip(points, [*points[1:], points[-1]], strict=True):
             cv2.line(mask, start, end, colour, 2 * stroke.radius + 1)
             cv2.circle(mask, end, stroke.radius, colour, -1)
-    painted: Bool = mask.view(np.bool_)
     return painted

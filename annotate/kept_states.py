@@ -11,14 +11,13 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections import OrderedDict
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
 from annotate import checkpoints
 from annotate.edits import Edits
 from annotate.lines import Line
-from annotate.log import LogError, State, folded
+from annotate.log import State, folded
 from annotate.operations import LOGGED, Logged
 
 _KEPT = 8  # states in memory
@@ -65,15 +64,6 @@ class Request:
         return LOGGED.validate_json(self.text)
 
 
-@dataclass(frozen=True)
-class Standing:
-    """Where a label stands, in short."""
-
-    status: str
-    tags: tuple[str, ...]
-    seconds: float
-
-
 class KeptStates:
     """States of the labels that were asked for last, and what a database keeps of all."""
 
@@ -90,7 +80,7 @@ class KeptStates:
         state = self._states.get(label)
         found = database.execute("SELECT last FROM standings WHERE label = ?", (label,)).fetchone()
         if state is None or state.last != (found[0] if found else 0):
-            state = _read(database, label)
+            state = read(database, label)
             if found:  # else somebody who may write keeps where it stands first
                 self.remember(label, state)
         return state
@@ -154,7 +144,10 @@ def add(
 
 
 def keep(database: sqlite3.Connection, label: int, state: State, *, checkpoint: bool) -> None:
-    """Keep where a label stands; with a checkpoint, also all else about its state."""
+    """Keep where a label stands; with a checkpoint, also all else about its state.
+
+    It has to be done in the transaction in which the log was read or added to.
+    """
     database.execute(
         "INSERT OR REPLACE INTO standings (label, last, revision, status, tags, seconds)"
         " VALUES (?, ?, ?, ?, ?, ?)",
@@ -165,40 +158,6 @@ def keep(database: sqlite3.Connection, label: int, state: State, *, checkpoint: 
             "INSERT OR REPLACE INTO checkpoints (label, state) VALUES (?, ?)",
             (label, checkpoints.packed(state, label)),
         )
-
-
-def missing(database: sqlite3.Connection) -> list[int]:
-    """Labels that have a log and no standing."""
-    rows = database.execute(
-        "SELECT id FROM labels WHERE id NOT IN (SELECT label FROM standings)"
-        " AND EXISTS (SELECT 1 FROM operations WHERE label = labels.id)"
-    )
-    return [int(row[0]) for row in rows]
-
-
-def renew(database: sqlite3.Connection, labels: list[int]) -> dict[int, str]:
-    """Make the standings of labels from their logs; return why some cannot be read."""
-    problems = {}
-    for label in labels:
-        try:
-            state = _read(database, label)
-        except LogError as error:
-            problems[label] = str(error)
-            continue
-        keep(database, label, state, checkpoint=state.count >= checkpoints.EVERY)
-    return problems
-
-
-def standings(
-    database: sqlite3.Connection, annotator: str, number: int
-) -> Iterator[tuple[int, Standing]]:
-    """Labels of a pass that have been worked on, and where they stand."""
-    for label, status, tags, seconds in database.execute(
-        "SELECT label, status, tags, seconds FROM standings JOIN labels ON labels.id = label"
-        " WHERE annotator = ? AND number = ?",
-        (annotator, number),
-    ):
-        yield int(label), Standing(status, tuple(json.loads(tags)), seconds)
 
 
 def revision(database: sqlite3.Connection, label: int) -> int:
@@ -220,8 +179,12 @@ def last_line(database: sqlite3.Connection, label: int) -> Line | None:
     return Line.unpacked(row[0]) if row and row[0] else None
 
 
-def _read(database: sqlite3.Connection, label: int) -> State:
-    """The state of a label, from its last checkpoint and what was done since."""
+def read(database: sqlite3.Connection, label: int) -> State:
+    """The state of a label, from its last checkpoint and what was done since.
+
+    Raises:
+        LogError: Its log cannot be read.
+    """
     width, height = database.execute(
         "SELECT width, height FROM labels JOIN photos ON photos.id = photo WHERE labels.id = ?",
         (label,),

@@ -26,7 +26,7 @@ import numpy.typing as npt
 from annotate.edits import Edits, paint
 from annotate.labels import ORIGINS
 from annotate.plan import Plan, Run, Stale, make_plan
-from skyline_viz.arrays import F32, F64, U8, Int, check_photo
+from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
 from skyline_viz.constraints import Anchor, PathError, StraightSpan
 from skyline_viz.methods.protocol import Method
 from skyline_viz.path import cheapest_end, sweep, trace
@@ -316,7 +316,9 @@ class LiveWire:
         if plan.strokes == before:
             return None
         same = 0
-        while before[same : same + 1] == plan.strokes[same : same + 1] != ():
+        for one, other in zip(before, plan.strokes, strict=False):
+            if one is not other and one != other:
+                break
             same += 1
         touched = [stroke.columns for stroke in (*before[same:], *plan.strokes[same:])]
         first = max(min(one for one, _ in touched), 0)
@@ -324,8 +326,16 @@ class LiveWire:
         if self._allowed is self._cost:
             self._allowed = self._cost.copy()
         part = slice(first, last + 1)
+        mask: Bool = np.zeros((self.width, self.height), np.bool_)
+        if same == len(before):  # strokes were added only: they are painted on what is there
+            mask[part] = self._allowed[part] != self._cost[part]
+            strokes = plan.strokes[same:]
+        else:
+            strokes = tuple(
+                one for one in plan.strokes if one.columns[0] <= last and one.columns[1] >= first
+            )
         self._allowed[part] = self._cost[part]
-        self._allowed[part][paint(plan.strokes, self.height, self.width)[part]] = np.inf
+        self._allowed[part][paint(strokes, self.height, self.width, mask)[part]] = np.inf
         return first, last
 
     def _sweep(self, part: Stale) -> None:

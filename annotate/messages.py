@@ -8,6 +8,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
+from annotate.edits import Stroke
 from annotate.labels import ORIGINS
 from annotate.operations import Operation, Place, Status, spoken
 from annotate.session import Session
@@ -119,14 +120,6 @@ class ShownSpan(BaseModel):
     last: int
 
 
-class ShownStroke(BaseModel):
-    """A stroke of the brush."""
-
-    points: tuple[tuple[int, int], ...]
-    radius: int
-    allow: bool
-
-
 class Document(BaseModel):
     """A photo with everything that was done to it."""
 
@@ -142,7 +135,7 @@ class Document(BaseModel):
     hidden: tuple[tuple[int, int], ...]
     anchors: list[tuple[int, int]]
     spans: list[ShownSpan]
-    forbidden: list[ShownStroke]
+    forbidden: tuple[Stroke, ...]
     can_undo: bool
     can_redo: bool
     undo_what: str | None
@@ -173,7 +166,7 @@ class Document(BaseModel):
             hidden=edits.hidden,
             anchors=sorted(edits.anchors.items()),
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
-            forbidden=[ShownStroke(**vars(one)) for one in edits.strokes],
+            forbidden=edits.strokes,
             can_undo=bool(state.steps),
             can_redo=bool(state.taken),
             undo_what=spoken(state.steps[-1].change) if state.steps else None,

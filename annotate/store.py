@@ -20,25 +20,15 @@ from typing import Any
 
 import numpy as np
 
-from annotate.database import NAME, connect, sentences
+from annotate import standings
+from annotate.database import NAME, StoreError, connect, sentences
 from annotate.folder import photos_below
 from annotate.kept_detectors import pack, unpack
-from annotate.kept_states import (
-    KeptStates,
-    Request,
-    StaleError,
-    Standing,
-    add,
-    known,
-    last_line,
-    missing,
-    renew,
-    revision,
-    standings,
-)
+from annotate.kept_states import KeptStates, Request, StaleError, add, known, last_line, revision
 from annotate.labels import Label
 from annotate.lines import Line
 from annotate.log import State
+from annotate.standings import Standing
 from skyline_viz.methods.protocol import Method
 from skyline_viz.photo import PhotoError, photo_size
 
@@ -283,23 +273,19 @@ class Store:
 
     def cards(self, annotator: str, number: int) -> dict[int, Card]:
         """Labels of a pass in short, by the id of their photo, for all photos."""
-        problems = self._complete()
+        fresh = self._missing_standings()
         with self._reading() as database:
             labels = database.execute(
                 "SELECT photo, id, margin, blind FROM labels WHERE annotator = ? AND number = ?",
                 (annotator, number),
             ).fetchall()
-            stand = dict(standings(database, annotator, number))
+            stand = standings.kept(database, annotator, number) | fresh
         begun = {photo: rest for photo, *rest in labels}
         cards = {}
         for photo in self.photos():
             label, margin, blind = begun.get(photo.id, (None, None, False))
-            problem = problems.get(label or 0, "")
-            fresh = Standing("needs review" if problem else "to do", (), 0.0)
-            one = stand.get(label or 0, fresh)
-            cards[photo.id] = Card(
-                photo, label, one.status, one.tags, margin, bool(blind), one.seconds, problem
-            )
+            one = stand.get(label or 0, Standing())
+            cards[photo.id] = Card(photo, label, margin=margin, blind=bool(blind), **vars(one))
         return cards
 
     def passes(self) -> list[tuple[str, int]]:
@@ -350,14 +336,17 @@ class Store:
                 blind=bool(blind),
             )
 
-    def _complete(self) -> dict[int, str]:
-        """Make standings that are missing; return why some labels have none, by their id."""
+    def _missing_standings(self) -> dict[int, Standing]:
+        """Standings of labels that had none, by the label's id; they are kept from now on."""
         with self._reading() as database:
-            labels = missing(database)
-        if not labels:
-            return {}
-        with self._writing() as database:
-            return renew(database, labels)
+            if not standings.missing(database):
+                return {}
+        try:
+            with self._writing() as database:
+                return standings.made(database, keeping=True)
+        except StoreError:  # they can still be read
+            with self._reading() as database:
+                return standings.made(database, keeping=False)
 
     @contextmanager
     def _reading(self) -> Iterator[sqlite3.Connection]:

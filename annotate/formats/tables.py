@@ -14,7 +14,9 @@ from annotate.labels import ORIGINS, Label
 from skyline_viz.files import write_text
 from skyline_viz.skyline import Skyline, SkylineError
 
-_FORMAT, _VERSION = "skyline-labels", 1
+_FORMAT = "skyline-labels"
+_VERSION = 2  # 1 had no undo of a status, and a program that knows no other would misread its log
+_KNOWN = (1, 2)
 
 
 def write_csv(entries: list[Entry], folder: Path) -> None:
@@ -60,8 +62,9 @@ def read_json(source: Path, photos: Path, names: Mapping[str, str]) -> list[Impo
     document = load_json(file)
     if document.get("format") != _FORMAT or not isinstance(document.get("labels"), list):
         raise FormatError(f'{file} is not of the format "{_FORMAT}".')
-    if document.get("version") != _VERSION:
-        raise FormatError(f"{file} has version {document.get('version')!r}, and 1 is known.")
+    if document.get("version") not in _KNOWN:
+        known = " and ".join(map(str, _KNOWN))
+        raise FormatError(f"{file} has version {document.get('version')!r}, and {known} are known.")
     found = []
     for one in document["labels"]:
         try:
