@@ -23,6 +23,7 @@ export class Labelling extends EventTarget {
   /** Name of the photo that is on its way; empty while none is. */
   loading = "";
   queue = new Queue();
+  #acknowledged = null; // rows of the document while it shows more than that
   #ahead = new Map();
   #opening = 0;
 
@@ -81,7 +82,7 @@ export class Labelling extends EventTarget {
     this.loading = "";
     this.document = ready.document;
     this.bitmap = ready.bitmap;
-    this.margins = null;
+    this.margins = this.#acknowledged = null;
     this.#tell("document", { fresh: true });
     this.#tell("loading");
     this.#measure();
@@ -102,6 +103,7 @@ export class Labelling extends EventTarget {
   apply(operation, part = null) {
     if (!this.document || this.loading) return null;
     if (part?.rows.length && this.document.rows) {
+      this.#acknowledged ??= [...this.document.rows];
       this.document.rows.splice(part.first, part.rows.length, ...part.rows);
       this.#tell("document", {});
     }
@@ -133,16 +135,27 @@ export class Labelling extends EventTarget {
     }
     if (found.id !== this.document?.id) return;
     const before = this.document;
-    if (this.queue.of(found.id).length) found.rows = before.rows; // what waits is shown already
+    if (this.#acknowledged && this.queue.of(found.id).length) { // what waits is shown already
+      this.#acknowledged = found.rows;
+      found.rows = before.rows;
+    } else this.#acknowledged = null;
     this.document = found;
     this.#tell("document", { before, item });
     if (found.revision !== before.revision) this.#measure();
   }
 
   #lost({ item, reason }) {
-    if (!item.quiet) this.say(`${item.name}: ${item.says} is not kept: ${reason}${reason.endsWith(".") ? "" : "."}`, true);
-    else if (item.photo === this.document?.id) this.say(reason, true);
-    if (item.photo === this.document?.id) this.#reload(item.photo);
+    if (item.photo === this.document?.id) {
+      if (this.#acknowledged) { // what was shown ahead of its time does not come
+        this.document.rows = this.#acknowledged;
+        this.#acknowledged = null;
+        this.#tell("document", {});
+      }
+      this.#reload(item.photo);
+    }
+    const sentence = `${reason}${reason.endsWith(".") ? "" : "."}`;
+    if (!item.quiet) this.say(`${item.name}: ${item.says} is not kept: ${sentence}`, true);
+    else if (item.photo === this.document?.id) this.say(sentence, true);
   }
 
   #stale({ photo, name }) {
@@ -157,10 +170,11 @@ export class Labelling extends EventTarget {
       const found = await get(`api/photos/${id}`);
       if (id !== this.document.id || found.revision < this.document.revision) return;
       this.document = found;
+      this.#acknowledged = null;
       this.#tell("document", {});
       this.#measure();
-    } catch (error) {
-      if (!error.away) this.say(error.message, true);
+    } catch {
+      // why is said where it matters: what waits is not kept, or is sent on
     }
   }
 

@@ -27,7 +27,7 @@ export class Messages {
     this.#labelling = labelling;
     this.#parts = parts;
     labelling.addEventListener("said", ({ detail }) => this.#say(detail));
-    labelling.addEventListener("document", ({ detail }) => detail.fresh && this.#say({ text: "" })); // of another photo
+    labelling.addEventListener("loading", () => labelling.loading && this.#say({ text: "" })); // what was said was of another photo
     labelling.queue.addEventListener("change", () => this.#show());
     parts.undo.addEventListener("click", () => {
       const undo = this.#undo;

@@ -46,6 +46,7 @@ export class Sheet extends EventTarget {
     if (this.shown) return;
     this.#parts.sheet.hidden = false;
     this.#parts.main.hidden = true;
+    this.#labelling.say(""); // what was said was of a photo that is not seen any more
     await this.#show(0);
   }
 

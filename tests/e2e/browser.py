@@ -43,7 +43,7 @@ class Page:
     @property
     def address(self):
         """What a server prints."""
-        return f"{self.client.base_url}/?token={TOKEN}"
+        return getattr(self.client, "address", f"{self.client.base_url}/?token={TOKEN}")
 
     def open(self):
         """Go to the page, or load it again."""
@@ -80,6 +80,10 @@ class Page:
         shown = self.document(
             int(self.page.locator("[aria-selected=true]").get_attribute("data-photo"))
         )
+        return self.place(column, row, shown)
+
+    def place(self, column, row, shown):
+        """Where a pixel of a photo of some width and height is on the screen."""
         box = self.page.locator("#lines").bounding_box()
         scale = min(box["width"] / shown["width"], box["height"] / shown["height"])
         left = box["x"] + (box["width"] - shown["width"] * scale) / 2
