@@ -21,7 +21,7 @@ const REFUSED = new Set([400, 403, 404, 405, 409, 410, 413, 415, 422]); // askin
  * @property {object | null} operation - With `operations`.
  * @property {number} revision - That it was made on; -1 for any.
  * @property {string} says - What it is, for people.
- * @property {string} tab - In which tab it was made: what it was made on is what that tab showed.
+ * @property {string} chain - Of the operations of a chain, each was made on what the one before it left.
  * @property {boolean} [quiet] - Nothing that somebody did: not counted, not kept over a reload, not missed.
  */
 
@@ -41,7 +41,6 @@ export class Queue extends EventTarget {
   lost = [];
   /** Why what waits is still waiting; empty while it is on its way. */
   reason = "";
-  #tab = newId();
   #items = [];
   #ends = new Map(); // by id: what is told when an item is kept or lost
   #shelf = null;
@@ -87,11 +86,12 @@ export class Queue extends EventTarget {
   /**
    * Send an operation when its turn has come.
    *
-   * @param {Omit<Item, "id" | "tab">} made
+   * @param {Omit<Item, "id" | "chain">} made
    * @returns {Promise<object | null>} The photo's document once it is kept; null when it is refused.
    */
   add(made) {
-    const item = { id: newId(), tab: this.#tab, operation: null, ...made };
+    const chain = this.of(made.photo).at(-1)?.chain ?? newId();
+    const item = { id: newId(), chain, operation: null, ...made };
     const ended = new Promise((done) => this.#ends.set(item.id, done));
     this.#items.push(item);
     this.#changed();
@@ -152,7 +152,7 @@ export class Queue extends EventTarget {
   #keep(item, document) {
     const kept = document.kept ?? document.revision;
     this.#drop([item]);
-    // what was done after it in its tab was done on it, and not on what others have made of it since
+    // what was done after it was done on it, and not on what another tab has made of it since
     if (!item.quiet) for (const next of this.#after(item)) next.revision = kept;
     this.reason = "";
     this.#changed();
@@ -179,12 +179,9 @@ export class Queue extends EventTarget {
     return true;
   }
 
-  /**
-   * An operation, and those on its photo that were made after it in its tab. None of them has been
-   * sent yet, while what another tab has left may be there already.
-   */
-  #after({ photo, tab }) {
-    return this.#items.filter((one) => one.photo === photo && one.tab === tab);
+  /** An operation and the rest of its chain, which has not been sent yet; what another tab has left may have been. */
+  #after({ photo, chain }) {
+    return this.#items.filter((one) => one.photo === photo && one.chain === chain);
   }
 
   #lose(items, reason) {

@@ -105,8 +105,9 @@ async function schedule(seed) {
     if (!page.queue.of(photo).length) page.shown.set(photo, store.of(photo).revision);
     const { kind, ...act } = click(random, number);
     const says = `click ${number}`;
+    const seen = new Set([...store.of(photo).rows, ...page.queue.of(photo)].map((one) => one.id));
     page.run(() => page.queue.add({ photo, name: `photo ${photo}`, revision: page.shown.get(photo), says, ...act }));
-    clicked.push({ page, photo, kind, says, id: page.queue.of(photo).at(-1).id, seen: new Set(store.of(photo).rows.map((row) => row.id)) });
+    clicked.push({ page, photo, kind, says, id: page.queue.of(photo).at(-1).id, seen });
     if (random.next() < 0.3) await new Promise((done) => setTimeout(done, random.below(4)));
     if (random.next() < 0.08) {
       met.crashes++;
