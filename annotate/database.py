@@ -99,6 +99,10 @@ MIGRATIONS = (
         reason TEXT NOT NULL
     );
     """,
+    """
+    CREATE TABLE folder (id TEXT NOT NULL);  -- tells these labels from those of other folders
+    INSERT INTO folder VALUES (lower(hex(randomblob(16))));
+    """,
 )
 """What leads from each version of the schema to the next; the number of them is the version."""
 

@@ -3,6 +3,8 @@
 - Every route checks the ``Host`` header against a list, which stops DNS rebinding.
 - Everything but the code of the page needs the token, which no other website can know or send.
 - Requests that change something come from this origin, and carry JSON of a limited size.
+- Every answer says whose labels of which folder it is about, and a request that is meant for others
+  is refused: a page that stays open may meet another server at its address.
 - What the server sends loads nothing from elsewhere, is never framed, and keeps its type.
 """
 
@@ -23,6 +25,9 @@ App: TypeAlias = Callable[[Scope, Receive, Send], Awaitable[None]]
 
 TOKEN_HEADER = "X-Skyline-Token"  # noqa: S105  # a name, not a secret
 """Header that carries the token."""
+
+PASS_HEADER = "X-Skyline-Pass"  # noqa: S105  # neither
+"""Header that says which pass an answer is about, or a request is meant for."""
 
 MOST_BYTES = 2_000_000
 """Largest body of a request."""
@@ -46,20 +51,24 @@ _CHANGING = ("POST", "PUT", "PATCH", "DELETE")
 class Guard:
     """Wraps a web application, and lets through what is allowed."""
 
-    def __init__(self, app: App, token: str, hosts: frozenset[str]) -> None:
+    def __init__(self, app: App, token: str, hosts: frozenset[str], shown: str = "") -> None:
         """Guard an application.
 
         Args:
             app: The application.
             token: What the page has to know.
             hosts: Host names with ports under which the server may be called.
+            shown: Id of the pass that the application shows.
         """
-        self._app, self._token, self._hosts = app, token, hosts
+        self._app, self._token, self._hosts, self._shown = app, token, hosts, shown
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request."""
-        if scope["type"] != "http":
+        if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
+            return
+        if scope["type"] != "http":  # a web socket, which no check below would see
+            await send({"type": "websocket.close", "code": 1008})
             return
 
         async def sealed(message: Message) -> None:
@@ -67,6 +76,7 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 for name, value in _HEADERS.items():
                     headers[name] = value
+                headers[PASS_HEADER] = self._shown
             await send(message)
 
         if refusal := self._refusal(scope):
@@ -85,18 +95,21 @@ class Guard:
         origin = headers.get("origin")
         if len(headers.getlist("host")) != 1 or headers["host"].lower() not in self._hosts:
             return _no(421, "this server is not called by that name.")
-        if origin is not None and origin.removeprefix("http://").lower() not in self._hosts:
+        scheme, _, name = (origin or "").lower().partition("://")
+        if origin is not None and (scheme != "http" or name not in self._hosts):
             return _no(403, "another website may not call this server.")
         if not self._knows_token(scope, headers):
             return _no(401, "the token is missing or wrong; open the address that was printed.")
+        if headers.get(PASS_HEADER, self._shown) != self._shown:
+            return _no(412, "this server shows another folder, or another annotator's labels.")
         return _body_refusal(headers) if scope["method"] in _CHANGING else None
 
     def _knows_token(self, scope: Scope, headers: Headers) -> bool:
-        if scope["path"].startswith("/static/"):
-            return True  # code, the same for everybody
+        if scope["path"] == "/" or scope["path"].startswith("/static/"):
+            return (
+                True  # code, the same for everybody; a page that is loaded again has no token yet
+            )
         given = headers.get(TOKEN_HEADER, "").encode("latin-1")
-        if scope["path"] == "/":
-            given = scope["query_string"].removeprefix(b"token=")
         return secrets.compare_digest(given, self._token.encode())
 
 

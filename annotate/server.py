@@ -13,6 +13,7 @@ from fastapi.staticfiles import StaticFiles
 from starlette.exceptions import HTTPException
 
 from annotate import folder_routes, photo_routes, picture_routes
+from annotate.address import pass_id
 from annotate.database import StoreError
 from annotate.edits import EditError
 from annotate.formats import FormatError
@@ -78,7 +79,8 @@ def make_app(bench: Workbench, token: str, hosts: frozenset[str]) -> Guard:
     app.add_api_route("/", _page, include_in_schema=False)
     for routes in (folder_routes, photo_routes, picture_routes):
         app.include_router(routes.router, prefix="/api")
-    return Guard(app, token, hosts)
+    who = bench.assignment
+    return Guard(app, token, hosts, pass_id(bench.store, who.annotator, who.number))
 
 
 def _page() -> FileResponse:

@@ -92,6 +92,12 @@ class Store:
         self.unreadable: list[str] = []
         """A sentence for each label that `labels` had to leave out."""
 
+    @property
+    def id(self) -> str:
+        """What tells these labels from those of other folders; a copy of the file has it, too."""
+        with self._reading() as database:
+            return str(database.execute("SELECT id FROM folder").fetchone()[0])
+
     def close(self) -> None:
         """Close the file."""
         with self._lock:

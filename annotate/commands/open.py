@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import secrets
 import socket
 import webbrowser
 from contextlib import suppress
@@ -27,6 +26,7 @@ from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detecto
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
+    from annotate.store import Store
     from annotate.workbench import Workbench
     from skyline_viz.methods.protocol import Method
 
@@ -69,7 +69,7 @@ class Open:
     """Address to listen on; any other than the default lets other machines in."""
 
     port: int = 0
-    """Port to listen on; 0 takes a free one."""
+    """Port to listen on; 0 takes the one that the folder had last, or a free one."""
 
     no_browser: Switch = False
     """Print the address, and do not open it."""
@@ -149,9 +149,8 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
     from annotate.server import make_app  # noqa: PLC0415
     from skyline_viz.viewer import has_display  # noqa: PLC0415
 
-    listener = bound(host, port)
+    listener, token = found_again(bench.store, host, port)
     port = listener.getsockname()[1]
-    token = secrets.token_urlsafe(24)
     app = make_app(bench, token, allowed_hosts(host, port))
     name = "127.0.0.1" if host in ("0.0.0.0", "::") else host  # noqa: S104
     address = f"http://{f'[{name}]' if ':' in name else name}:{port}/?token={token}"
@@ -166,6 +165,37 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
     )
     with suppress(KeyboardInterrupt):  # which the server raises again when it has stopped
         uvicorn.Server(config).run(sockets=[listener])
+
+
+def found_again(store: Store, host: str, port: int) -> tuple[socket.socket, str]:
+    """A socket and a token: those that the folder had last, as far as they are still to be had.
+
+    Raises:
+        UsageError: As `bound` does.
+    """
+    from annotate.address import (  # noqa: PLC0415
+        Address,
+        folder_id,
+        keep_address,
+        kept_address,
+        new_address,
+    )
+
+    folder = folder_id(store)
+    address = kept_address(folder) or new_address()
+    try:
+        listener = bound(host, port or address.port)
+    except UsageError:
+        if port:
+            raise
+        # a page that is open still tells its token to whoever listens there now
+        address, listener = new_address(), bound(host, 0)
+    try:
+        keep_address(folder, Address(address.token, listener.getsockname()[1]))
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        say(f"the address cannot be kept for the next time: {reason}.", PROGRAM)
+    return listener, address.token
 
 
 def bound(host: str, port: int) -> socket.socket:

@@ -1,6 +1,7 @@
 /** Dialogs: keys, tags, the folder (export and learning), and three sentences at the first visit. */
 
 import { blob, get, post } from "./api.js";
+import { counted } from "./messages.js";
 
 const FORMATS = {
   csv: "CSV: column, row, visible",
@@ -15,10 +16,10 @@ const FORMATS = {
 
 const find = (id) => document.getElementById(id);
 
-/** Close a dialog by clicking beside it; then the keys belong to the photo again. */
-export function prepare() {
+/** Close a dialog by clicking beside it; then the keys belong to what `home` names again. */
+export function prepare(home) {
   for (const dialog of document.querySelectorAll("dialog")) {
-    dialog.addEventListener("close", () => find("lines").focus({ preventScroll: true }));
+    dialog.addEventListener("close", () => home().focus({ preventScroll: true }));
     dialog.addEventListener("click", (event) => {
       if (event.target === dialog) dialog.close();
     });
@@ -48,16 +49,16 @@ export function showHelp(table) {
   find("help-dialog").showModal();
 }
 
-/** Tags as boxes to tick, and a field for one's own. */
-export function showTags(labelling) {
-  const set = (tag, on) => labelling.apply({ kind: "tag", tag, on });
+/** Tags of a photo as boxes to tick, and a field for one's own; `set` is called with a tag, and whether it is on. */
+export function showTags(labelling, photo, set) {
+  find("tags-title").textContent = `Tags of ${photo.name}`;
   const draw = (more = []) => {
-    const all = [...new Set([...labelling.tags, ...labelling.photos.flatMap((photo) => photo.tags), ...labelling.document.tags, ...more])];
+    const all = [...new Set([...labelling.tags, ...labelling.photos.flatMap((one) => one.tags), ...photo.tags, ...more])];
     find("tags-list").replaceChildren(...all.map((tag) => {
       const label = document.createElement("label");
       const box = document.createElement("input");
       box.type = "checkbox";
-      box.checked = labelling.document.tags.includes(tag) || more.includes(tag);
+      box.checked = photo.tags.includes(tag) || more.includes(tag);
       box.addEventListener("change", () => set(tag, box.checked));
       label.append(box, tag);
       return label;
@@ -90,9 +91,11 @@ export function showMore(labelling) {
 
 async function download(labelling, format) {
   try {
-    await labelling.settled();
+    const waits = labelling.waiting;
+    if (waits) find("learned").textContent = `The export begins as soon as ${counted(waits, "edit")} ${waits === 1 ? "is" : "are"} saved.`;
+    await labelling.queue.settled();
     const link = document.createElement("a");
-    link.href = URL.createObjectURL(await blob(`api/exports/${format}`));
+    link.href = URL.createObjectURL(await blob(`api/exports/${format}`, { patience: 600_000 }));
     link.download = `skylines-${format}.zip`;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 60_000);

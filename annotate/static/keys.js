@@ -1,7 +1,7 @@
 /** All keys, in one table: what they do, and what the help says about them. */
 
 /**
- * @param {object} act - Functions by name, see `main.js`.
+ * @param {object} act - Functions by name, see `actions.js` and `line_actions.js`.
  * @returns {{keys: string[], shown: string, says: string, run: (event: KeyboardEvent) => void}[]}
  */
 export function keyTable(act) {
@@ -10,6 +10,7 @@ export function keyTable(act) {
     one("Space", "Accept, and show the next photo", () => act.finish("accepted"), " "),
     one("R", "Needs review, next photo", () => act.finish("needs review"), "r"),
     one("Q", "Reject, next photo", () => act.finish("rejected"), "q"),
+    one("C", "Set the photo back: it is to do again", () => act.setStatus("to do"), "c"),
     one("N, Shift+N", "Next, previous uncertain column", (event) => act.uncertain(event.shiftKey ? -1 : 1), "n", "N"),
     one("← →", "Move the column cursor; with Shift 10, with Ctrl 100 columns", (event) =>
       act.moveColumn((event.key === "ArrowLeft" ? -1 : 1) * pace(event)), "ArrowLeft", "ArrowRight"),
@@ -41,13 +42,16 @@ export function keyTable(act) {
   ];
 }
 
-/** Let the keys of a table work wherever nothing is being typed. */
-export function listen(table, quiet) {
+/** Keys that work in the sheet, too, on the photo of its card. */
+const EVERYWHERE = new Set([" ", "r", "q", "c", "u", "Ctrl+z", "y", "Ctrl+y", "Ctrl+Z", "t", "p", "/", "?"]);
+
+/** Let the keys of a table work wherever nothing is being typed: `quiet` says where, `sheet` whether it is shown. */
+export function listen(table, quiet, sheet) {
   const known = new Map(table.flatMap((entry) => entry.keys.map((key) => [key, entry])));
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || quiet(event)) return;
     const entry = known.get(named(event)) ?? (event.altKey ? undefined : known.get(plain(event)));
-    if (!entry) return;
+    if (!entry || (sheet() && !entry.keys.some((key) => EVERYWHERE.has(key)))) return;
     event.preventDefault();
     entry.run(event);
   });

@@ -1,12 +1,15 @@
-/** The photo that is labelled, and what is on its way to the server. */
+/** The photos of the folder, the one that is labelled, and what is done to it. */
 
-import { ApiError, get, picture, post } from "./api.js";
+import { get, me, picture } from "./api.js";
+import { Queue } from "./queue.js";
 
-const RETRY = [500, 1000, 2000, 4000, 8000]; // milliseconds
+const OPENING = 300_000; // milliseconds that the first look at a large photo may take
 
 /**
- * Holds the list of photos, the current document and a queue of operations, which are sent one at a
- * time and in order. Events: `list`, `document`, `margins`, `saving`, `said` (detail: {text, bad}).
+ * Holds the list of photos and the current document, which follows what the queue gets acknowledged.
+ * Events: `list`, `document` (detail.fresh: another photo; detail.before, detail.item: what was
+ * there before an operation was acknowledged), `margins`, `loading`, `did` (an operation is sent),
+ * `said` (detail: {text, bad, undo}: what to say, and what takes back what was said).
  */
 export class Labelling extends EventTarget {
   photos = [];
@@ -17,10 +20,19 @@ export class Labelling extends EventTarget {
   document = null;
   bitmap = null;
   margins = null;
-  #queue = [];
-  #sending = false;
+  /** Name of the photo that is on its way; empty while none is. */
+  loading = "";
+  queue = new Queue();
+  #acknowledged = null; // rows of the document while it shows more than that
   #ahead = new Map();
   #opening = 0;
+
+  constructor() {
+    super();
+    this.queue.addEventListener("kept", ({ detail }) => this.#took(detail));
+    this.queue.addEventListener("lost", ({ detail }) => this.#lost(detail));
+    this.queue.addEventListener("stale", ({ detail }) => this.#stale(detail));
+  }
 
   /** Read the list of photos. */
   async load() {
@@ -31,38 +43,50 @@ export class Labelling extends EventTarget {
     this.#tell("list");
   }
 
+  /** Which pass over which folder this is, for what is kept in the browser. */
+  get pass() {
+    return me.pass;
+  }
+
+  /** Number of operations that the server has not acknowledged. */
+  get waiting() {
+    return this.queue.waiting;
+  }
+
   /** Place of the current photo in the list, from 0. */
   get place() {
     return this.photos.findIndex((photo) => photo.id === this.document?.id);
   }
 
-  /** Number of operations that the server has not acknowledged. */
-  get waiting() {
-    return this.#queue.length;
-  }
-
-  /** Show a photo, once everything before is saved. */
+  /** Show a photo; what waits for another one is sent meanwhile. */
   async open(id) {
     const turn = ++this.#opening;
-    await this.settled();
+    this.loading = this.photos.find((photo) => photo.id === id)?.name ?? "photo";
+    this.#tell("loading");
     let ready;
     try {
       ready = await (this.#ahead.get(id) ?? this.#fetch(id));
-      const current = await get(`api/photos/${id}`); // cheap, and never an old revision
-      ready = { ...ready, document: current };
+      ready = { ...ready, document: await get(`api/photos/${id}`, { patience: OPENING }) }; // never an old revision
     } catch (error) {
       this.#ahead.delete(id);
-      if (turn === this.#opening) this.say(error.message, true);
+      if (turn === this.#opening) {
+        this.loading = "";
+        this.#tell("loading");
+        this.say(error.message, true);
+        if (error.status === 410) this.load().catch(() => {}); // it is listed as missing
+      }
       return false;
     }
     if (turn !== this.#opening) return false;
     this.#ahead.clear();
+    this.loading = "";
     this.document = ready.document;
     this.bitmap = ready.bitmap;
-    this.margins = null;
+    this.margins = this.#acknowledged = null;
     this.#tell("document", { fresh: true });
+    this.#tell("loading");
     this.#measure();
-    this.apply({ kind: "open" });
+    this.queue.add({ photo: id, name: this.document.name, what: "operations", operation: { kind: "open" }, revision: -1, says: "open", quiet: true });
     const next = this.following();
     if (next) this.#ahead.set(next.id, this.#fetch(next.id).catch((error) => this.#forget(next.id, error)));
     return true;
@@ -75,92 +99,82 @@ export class Labelling extends EventTarget {
       .find((photo) => photo.status === "to do" && !photo.missing);
   }
 
-  /** Do an operation; what it will look like may be shown at once. */
+  /** Do an operation on the photo that is shown; what it will look like may be shown at once. */
   apply(operation, part = null) {
-    this.#send("operations", { operation }, part);
-  }
-
-  /** Take the last edit back. */
-  undo() {
-    this.#send("undo", {});
-  }
-
-  /** Do again what was taken back. */
-  redo() {
-    this.#send("redo", {});
-  }
-
-  /** Wait until everything is acknowledged. */
-  async settled() {
-    while (this.#queue.length) await new Promise((done) => this.addEventListener("saving", done, { once: true }));
-  }
-
-  /** Tell the person something, on the page and to screen readers. */
-  say(text, bad = false) {
-    this.#tell("said", { text, bad });
-  }
-
-  #send(what, body, part = null) {
-    if (!this.document) return;
+    if (!this.document || this.loading) return null;
     if (part?.rows.length && this.document.rows) {
+      this.#acknowledged ??= [...this.document.rows];
       this.document.rows.splice(part.first, part.rows.length, ...part.rows);
       this.#tell("document", {});
     }
-    this.#queue.push({ id: this.document.id, what, body });
-    this.#tell("saving");
-    if (!this.#sending) this.#work();
+    return this.send(this.document, { what: "operations", operation, says: described(operation) });
   }
 
-  async #work() {
-    this.#sending = true;
-    let tries = 0;
-    while (this.#queue.length) {
-      const { id, what, body } = this.#queue[0];
-      try {
-        const found = await post(`api/photos/${id}/${what}`, { revision: this.document.revision, ...body });
-        tries = 0;
-        this.#queue.shift();
-        this.#took(found);
-      } catch (error) {
-        if (!(error instanceof ApiError)) throw error;
-        if (error.status === 0) {
-          this.say(`${error.message} Your last ${this.#queue.length === 1 ? "edit is" : "edits are"} not saved yet.`, true);
-          this.#tell("saving");
-          await new Promise((done) => setTimeout(done, RETRY[Math.min(tries++, RETRY.length - 1)]));
-          continue;
-        }
-        this.#queue.length = 0; // later ones were made on what was refused
-        this.say(error.message, true);
-        await this.#reload(id);
-      }
-      this.#tell("saving");
-    }
-    this.#sending = false;
+  /**
+   * Do something to a photo, shown or not; the promise is that of `Queue.add`.
+   *
+   * @param {{id: number, name: string, revision?: number}} photo
+   * @param {{what: string, operation?: object, says: string}} act
+   */
+  send({ id, name, revision = -1 }, act) {
+    this.#tell("did");
+    return this.queue.add({ photo: id, name, revision, ...act });
   }
 
-  #took(found) {
-    if (found.id !== this.document.id) return;
-    if (this.#queue.length) found.rows = this.document.rows; // what waits is shown already
-    const changed = found.revision !== this.document.revision;
-    this.document = found;
+  /** Tell the person something, on the page and to screen readers. */
+  say(text, bad = false, undo = null) {
+    this.#tell("said", { text, bad, undo });
+  }
+
+  #took({ item, document: found }) {
     const listed = this.photos.find((photo) => photo.id === found.id);
-    if (listed && (listed.status !== found.status || listed.tags.length !== found.tags.length)) {
+    if (listed && (listed.status !== found.status || String(listed.tags) !== String(found.tags))) {
       Object.assign(listed, { status: found.status, tags: found.tags });
-      this.load().catch((error) => this.say(error.message, true)); // progress and times
+      this.#tell("list");
+      this.load().catch(() => {}); // progress and times; they come with the next one, too
     }
-    this.#tell("document", {});
-    if (changed) this.#measure();
+    if (found.id !== this.document?.id) return;
+    const before = this.document;
+    if (this.#acknowledged && this.queue.of(found.id).length) { // what waits is shown already
+      this.#acknowledged = found.rows;
+      found.rows = before.rows;
+    } else this.#acknowledged = null;
+    this.document = found;
+    this.#tell("document", { before, item });
+    if (found.revision !== before.revision) this.#measure();
+  }
+
+  #lost({ item, reason }) {
+    if (item.photo === this.document?.id) {
+      if (this.#acknowledged) { // what was shown ahead of its time does not come
+        this.document.rows = this.#acknowledged;
+        this.#acknowledged = null;
+        this.#tell("document", {});
+      }
+      this.#reload(item.photo);
+    }
+    const sentence = `${reason}${reason.endsWith(".") ? "" : "."}`;
+    if (!item.quiet) this.say(`${item.name}: ${item.says} is not kept: ${sentence}`, true);
+    else if (item.photo === this.document?.id) this.say(sentence, true);
+  }
+
+  #stale({ photo, name }) {
+    const left = this.queue.of(photo).length;
+    const again = left ? "; what you did since is sent on top of it" : "";
+    this.say(`${name} was changed in another tab, and is shown as it is now${again}.`, true);
+    if (photo === this.document?.id) this.#reload(photo);
   }
 
   async #reload(id) {
     try {
       const found = await get(`api/photos/${id}`);
-      if (id !== this.document.id) return;
+      if (id !== this.document.id || found.revision < this.document.revision) return;
       this.document = found;
+      this.#acknowledged = null;
       this.#tell("document", {});
       this.#measure();
-    } catch (error) {
-      this.say(error.message, true);
+    } catch {
+      // why is said where it matters: what waits is not kept, or is sent on
     }
   }
 
@@ -178,7 +192,8 @@ export class Labelling extends EventTarget {
   }
 
   async #fetch(id) {
-    const [found, bitmap] = await Promise.all([get(`api/photos/${id}`), picture(`api/photos/${id}/image`)]);
+    const [found, bitmap] = await Promise.all([
+      get(`api/photos/${id}`, { patience: OPENING }), picture(`api/photos/${id}/image`, { patience: OPENING })]);
     return { document: found, bitmap };
   }
 
@@ -190,4 +205,21 @@ export class Labelling extends EventTarget {
   #tell(name, detail) {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
+}
+
+/** An operation in a few words. */
+export function described({ kind, ...how }) {
+  const across = `columns ${how.first} to ${how.last}`;
+  return {
+    anchor: () => `the anchor at column ${how.column}, row ${how.row}`,
+    move: () => `moving the anchor from column ${how.from_column} to ${how.column}`,
+    remove: () => `removing the anchor at column ${how.column}`,
+    forbid: () => `the stroke of the ${how.allow ? "eraser" : "brush"} at column ${how.points[0][0]}`,
+    straight: () => `the straight line from column ${how.column} to ${how.to_column}`,
+    drawn: () => `the drawn line from column ${how.first} to ${how.first + how.rows.length - 1}`,
+    hidden: () => `${how.hidden ? "hiding" : "showing"} ${across}`,
+    release: () => `dropping what was asked for in ${across}`,
+    tag: () => `${how.on ? "the tag" : "taking off the tag"} “${how.tag}”`,
+    status: () => `“${how.status}”`,
+  }[kind]?.() ?? kind;
 }

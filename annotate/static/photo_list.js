@@ -13,7 +13,7 @@ export class PhotoList {
   #inner = document.createElement("div");
   #thumbnails = new Map();
 
-  /** `parts`: {list, search, filter, progress, words}; `choose` is called with a photo's id. */
+  /** `parts`: {list, search, filter, progress, words}; `choose` is called with a photo's id, and whether a click chose it. */
   constructor(labelling, parts, choose) {
     this.#labelling = labelling;
     this.#parts = parts;
@@ -24,7 +24,7 @@ export class PhotoList {
     new ResizeObserver(() => this.#draw()).observe(parts.list);
     parts.list.addEventListener("click", (event) => {
       const item = event.target.closest(".item");
-      if (item) choose(Number(item.dataset.photo));
+      if (item) choose(Number(item.dataset.photo), true);
     });
     parts.list.addEventListener("keydown", (event) => {
       const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
@@ -32,7 +32,7 @@ export class PhotoList {
       event.preventDefault();
       const at = this.#found.findIndex((photo) => photo.id === labelling.document?.id);
       const next = this.#found[Math.min(Math.max(at + step, 0), this.#found.length - 1)];
-      if (next) choose(next.id);
+      if (next) choose(next.id, false);
     });
     parts.search.addEventListener("input", () => this.#search());
     parts.filter.addEventListener("change", () => this.#search());
@@ -69,6 +69,7 @@ export class PhotoList {
     const first = Math.max(Math.floor(list.scrollTop / HEIGHT) - 2, 0);
     const shown = this.#found.slice(first, first + Math.ceil(list.clientHeight / HEIGHT) + 4);
     this.#inner.replaceChildren(...shown.map((photo, at) => this.#item(photo, first + at, photo.id === current)));
+    if (!this.#found.length) this.#inner.append(nothing(this.#labelling.photos.length ? "No photo matches." : ""));
     const selected = this.#inner.querySelector("[aria-selected=true]");
     if (selected) list.setAttribute("aria-activedescendant", selected.id);
     else list.removeAttribute("aria-activedescendant");
@@ -123,6 +124,15 @@ export class PhotoList {
       this.#thumbnails.delete(photo.id);
     }
   }
+}
+
+function nothing(words) {
+  const said = document.createElement("p");
+  said.className = "nothing";
+  said.setAttribute("role", "option"); // a list box holds nothing else
+  said.setAttribute("aria-disabled", "true");
+  said.textContent = words;
+  return said;
 }
 
 /** A time as people say it. */

@@ -54,7 +54,7 @@ export class Previewer {
           this.#show(part);
         }
       } catch (error) {
-        if (error.status !== 422) this.#labelling.say(error.message, true);
+        if (error.status !== 422 && !error.away) this.#labelling.say(error.message, true);
         this.#show(null);
       }
     }

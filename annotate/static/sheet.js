@@ -1,27 +1,34 @@
-/** The sheet: straightened strips of many photos, accepted or rejected by key. */
+/** The sheet: straightened strips of many photos, worked through by key. */
 
-import { blob, get, post } from "./api.js";
+import { blob, get } from "./api.js";
 
-/** A page of cards over the rest of the page. */
-export class Sheet {
+/**
+ * A page of cards over the rest of the page. One card is the current one, and stays it while a button
+ * elsewhere has the focus. Events: `card` (another one, or its photo changed), `page` (other cards).
+ */
+export class Sheet extends EventTarget {
   #parts; // {sheet, main, cards, status, page, previous, next, close}
   #labelling;
-  #open;
+  #act; // {open(id), finish(status)}
   #page = 0;
   #pages = 1;
   #photos = [];
+  #at = 0;
+  #turn = 0;
   #urls = [];
 
-  /** `open` is called with the id of the photo to label. */
-  constructor(labelling, parts, open) {
+  constructor(labelling, parts, act) {
+    super();
     this.#labelling = labelling;
     this.#parts = parts;
-    this.#open = open;
+    this.#act = act;
     parts.status.addEventListener("change", () => this.#show(0));
     parts.previous.addEventListener("click", () => this.#show(this.#page - 1));
     parts.next.addEventListener("click", () => this.#show(this.#page + 1));
     parts.close.addEventListener("click", () => this.hide());
-    parts.sheet.addEventListener("keydown", (event) => this.#key(event));
+    document.addEventListener("keydown", (event) => this.shown && this.#key(event));
+    parts.cards.addEventListener("focusin", (event) => this.#choose(event.target.closest(".card")));
+    labelling.addEventListener("list", () => this.#renew());
   }
 
   /** Whether it is shown. */
@@ -29,50 +36,76 @@ export class Sheet {
     return !this.#parts.sheet.hidden;
   }
 
+  /** Photo of the current card; null where there is none. */
+  get card() {
+    return this.#photos[this.#at] ?? null;
+  }
+
   /** Show it instead of the photo. */
   async show() {
-    await this.#labelling.settled();
+    if (this.shown) return;
     this.#parts.sheet.hidden = false;
     this.#parts.main.hidden = true;
+    this.#labelling.say(""); // what was said was of a photo that is not seen any more
     await this.#show(0);
   }
 
   /** Go back to the photo. */
   hide() {
+    if (!this.shown) return;
+    this.#turn++;
     this.#parts.sheet.hidden = true;
     this.#parts.main.hidden = false;
-    this.#forget();
+    this.#put([]);
     dispatchEvent(new Event("resize"));
     this.#parts.main.querySelector("#lines").focus();
   }
 
+  /** Go some cards on. */
+  step(by) {
+    this.#card(this.#at + by)?.focus();
+  }
+
+  /** Go to the card of a photo, if it is on this page. */
+  focus(id) {
+    this.#card(this.#photos.findIndex((photo) => photo.id === id))?.focus();
+  }
+
   async #show(page) {
+    const turn = ++this.#turn;
     const status = this.#parts.status.value;
+    this.#put([], "Reading the strips…");
     let found;
     try {
       found = await get(`api/sheet?status=${encodeURIComponent(status)}&page=${Math.max(page, 0)}`);
     } catch (error) {
-      this.#labelling.say(error.message, true);
+      if (turn === this.#turn) this.#put([], error.message);
       return;
     }
-    this.#forget();
+    if (turn !== this.#turn) return;
     this.#pages = found.pages;
     this.#page = Math.min(Math.max(page, 0), found.pages - 1);
-    this.#photos = found.photos;
-    this.#parts.page.textContent = `${this.#page + 1} / ${this.#pages}`;
-    this.#parts.previous.disabled = this.#page === 0;
-    this.#parts.next.disabled = this.#page >= this.#pages - 1;
-    const cards = this.#photos.map((photo, at) => this.#card(photo, at));
-    if (!cards.length) {
-      const none = document.createElement("li");
-      none.textContent = `No photo is ${status}.`;
-      cards.push(none);
-    }
-    this.#parts.cards.replaceChildren(...cards);
-    (this.#parts.cards.querySelector(".card") ?? this.#parts.close).focus();
+    this.#put(found.photos, status === "all" ? "There is no photo." : `No photo is ${status}.`);
+    (this.#card(0) ?? this.#parts.close).focus();
   }
 
-  #card(photo, at) {
+  /** Lay out cards, or words where there are none. */
+  #put(photos, words = "") {
+    this.#urls.splice(0).forEach((url) => URL.revokeObjectURL(url));
+    this.#photos = photos;
+    this.#at = 0;
+    const { page, previous, next, cards } = this.#parts;
+    page.textContent = `${this.#page + 1} / ${this.#pages}`;
+    previous.disabled = this.#page === 0;
+    next.disabled = this.#page >= this.#pages - 1;
+    const none = document.createElement("li");
+    none.textContent = words;
+    cards.replaceChildren(...(photos.length ? photos.map((photo, at) => this.#made(photo, at)) : [none]));
+    this.dispatchEvent(new Event("page"));
+    this.dispatchEvent(new Event("card"));
+  }
+
+  #made(photo, at) {
     const card = document.createElement("li");
     card.className = "card";
     card.tabIndex = 0;
@@ -93,56 +126,58 @@ export class Sheet {
       image.src = URL.createObjectURL(data);
       this.#urls.push(image.src);
     }, (error) => {
-      image.alt = error.message;
+      const words = document.createElement("p");
+      words.className = "none";
+      words.textContent = error.message;
+      image.replaceWith(words);
     });
     return card;
   }
 
+  #card(at) {
+    return this.#parts.cards.querySelector(`[data-at="${at}"]`);
+  }
+
   #say(card, photo) {
     const status = card.querySelector(".status");
-    status.textContent = photo.status;
+    status.textContent = [photo.status, ...photo.tags].join(", ");
     status.dataset.status = photo.status;
   }
 
+  /** The list has changed: show what it says about the photos of the cards. */
+  #renew() {
+    if (!this.shown) return;
+    const listed = new Map(this.#labelling.photos.map((photo) => [photo.id, photo]));
+    this.#photos = this.#photos.map((photo) => listed.get(photo.id) ?? photo);
+    this.#photos.forEach((photo, at) => this.#say(this.#card(at), photo));
+    this.dispatchEvent(new Event("card"));
+  }
+
+  #choose(card) {
+    if (!card) return;
+    this.#at = Number(card.dataset.at);
+    for (const one of this.#parts.cards.querySelectorAll(".card")) one.classList.toggle("current", one === card);
+    this.dispatchEvent(new Event("card"));
+  }
+
   #key(event) {
-    const card = event.target.closest(".card");
-    const at = card ? Number(card.dataset.at) : -1;
+    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
+    const elsewhere = event.target.closest("select, input, [role=listbox]");
+    if (elsewhere && event.key !== "Escape") return;
+    const pressing = event.target.closest("button");
     const across = getComputedStyle(this.#parts.cards).gridTemplateColumns.split(" ").length;
     const step = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: across, ArrowUp: -across }[event.key];
     const status = { a: "accepted", d: "rejected" }[event.key];
     if (event.key === "Escape" || event.key === "w") this.hide();
-    else if (!card || event.ctrlKey || event.metaKey || event.altKey) return;
-    else if (step) this.#focus(at + step);
-    else if (event.key === "Enter") this.#openPhoto(this.#photos[at]);
-    else if (status) this.#set(card, this.#photos[at], status);
+    else if (step && !pressing) this.step(step);
+    else if (event.key === "Enter" && !pressing && this.card) this.#openPhoto(this.card);
+    else if (status) this.#act.finish(status);
     else return;
     event.preventDefault();
-    event.stopPropagation();
-  }
-
-  #focus(at) {
-    this.#parts.cards.querySelector(`[data-at="${at}"]`)?.focus();
-  }
-
-  async #set(card, photo, status) {
-    this.#focus(Number(card.dataset.at) + 1);
-    try {
-      const body = { revision: -1, operation: { kind: "status", status } };
-      photo.status = (await post(`api/photos/${photo.id}/operations`, body)).status;
-      this.#say(card, photo);
-      await this.#labelling.load();
-      this.#labelling.say(`${photo.name} is ${photo.status}.`);
-    } catch (error) {
-      this.#labelling.say(error.message, true);
-    }
   }
 
   #openPhoto(photo) {
     this.hide();
-    this.#open(photo.id);
-  }
-
-  #forget() {
-    this.#urls.splice(0).forEach((url) => URL.revokeObjectURL(url));
+    this.#act.open(photo.id);
   }
 }

@@ -40,13 +40,18 @@ class Page:
         if message.type == "error" and "Failed to load resource" not in message.text:
             self.errors.append(message.text)
 
+    @property
+    def address(self):
+        """What a server prints."""
+        return getattr(self.client, "address", f"{self.client.base_url}/?token={TOKEN}")
+
     def open(self):
-        """Go to the page, or reload it."""
-        self.page.goto(f"{self.client.base_url}/?token={TOKEN}")
+        """Go to the page, or load it again."""
+        self.page.goto(self.address)
         self.wait_for_photo()
 
     def wait_for_photo(self):
-        self.page.locator("#place:not(:text-is('0 / 0'))").wait_for()
+        self.page.locator("#accept:enabled").wait_for()
         self.saved()
 
     def shows(self, name):
@@ -75,6 +80,10 @@ class Page:
         shown = self.document(
             int(self.page.locator("[aria-selected=true]").get_attribute("data-photo"))
         )
+        return self.place(column, row, shown)
+
+    def place(self, column, row, shown):
+        """Where a pixel of a photo of some width and height is on the screen."""
         box = self.page.locator("#lines").bounding_box()
         scale = min(box["width"] / shown["width"], box["height"] / shown["height"])
         left = box["x"] + (box["width"] - shown["width"] * scale) / 2

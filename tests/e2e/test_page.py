@@ -281,9 +281,10 @@ def test_what_is_not_acknowledged_is_said_and_sent_again(page):
     page.context.set_offline(True)
     x, y = page.at(120, 90)
     page.page.mouse.click(x, y)
-    page.says("not saved yet")
-    page.page.locator("#saving", has_text="not saved").wait_for()
+    page.page.locator("#trouble", has_text="does not answer. 1 edit waits and is sent").wait_for()
+    page.page.locator("#saving", has_text="1 not saved").wait_for()
     page.page.mouse.click(x + 60, y)
+    page.page.locator("#saving", has_text="2 not saved").wait_for()
     page.context.set_offline(False)
     page.saved()
     assert len(page.document()["anchors"]) == 2
@@ -292,17 +293,18 @@ def test_what_is_not_acknowledged_is_said_and_sent_again(page):
 
 def test_two_tabs_on_one_photo_lose_nothing(page):
     other = page.context.new_page()
-    other.goto(page.page.url)
+    other.goto(page.address)
     other.locator("#name", has_text="a-peak.png").wait_for()
     page.click(100, 80)
     other.locator("#lines").focus()
     other.keyboard.press("ArrowRight")
     other.keyboard.press("Enter")
     other.locator("#said", has_text="changed in another tab").wait_for()
-    assert page.document()["anchors"] == [[100, 80]]
-    other.keyboard.press("Enter")
-    other.wait_for_timeout(500)
+    other.locator("#saving[data-state=saved]").wait_for()
     assert len(page.document()["anchors"]) == 2
+    other.keyboard.press("u")
+    other.wait_for_timeout(500)
+    assert page.document()["anchors"] == [[100, 80]]
 
 
 def test_a_sheet_is_worked_through_by_key(page):
