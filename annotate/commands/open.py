@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import tyro
 
 from annotate.commands.options import PROGRAM, Annotator, PhotoFolder, check_folder, whoever
-from skyline_viz.commands.messages import GOOD, UsageError, counted, say
+from skyline_viz.commands.messages import GOOD, UsageError, counted, say, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detector
 from skyline_viz.config import DetectorConfig
@@ -127,9 +127,9 @@ class Open:
             propose_all(bench)
         progress = bench.progress()
         left = progress.total - progress.done
-        print(f"{counted(progress.total, 'photo')} in {self.folder}, {left} to label.")
+        tell(f"{counted(progress.total, 'photo')} in {self.folder}, {left} to label.")
         serve(bench, self.host, self.port, browser=not self.no_browser)
-        print(f"Labels are in {self.folder}.")
+        tell(f"Labels are in {self.folder}.")
         return GOOD
 
 
@@ -162,10 +162,10 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
     app = make_app(bench, token, allowed_hosts(host, port))
     name = "127.0.0.1" if host in ("0.0.0.0", "::") else host  # noqa: S104
     address = f"http://{f'[{name}]' if ':' in name else name}:{port}/?token={token}"
-    print(f"Label at {address}")
+    tell(f"Label at {address}")
     if host not in ("127.0.0.1", "::1", "localhost"):
         say(f"{host} lets other machines in; whoever knows the address can change labels.", PROGRAM)
-    print("Ctrl-C ends.", flush=True)
+    tell("Ctrl-C ends.")
     if browser and has_display():
         webbrowser.open(address)
     config = uvicorn.Config(

@@ -11,8 +11,9 @@ import tyro
 
 from annotate.commands.options import PhotoFolder, opened
 from annotate.labels import STATUSES
-from skyline_viz.commands.messages import GOOD, UsageError, counted
+from skyline_viz.commands.messages import GOOD, UsageError, counted, tell, tell_drawn
 from skyline_viz.commands.settings import check_picture
+from skyline_viz.names import cell, columns_of, padded, shortened
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,6 @@ class Status:
 
     def run(self) -> int:
         """Print a table; return the exit status."""
-        from rich.console import Console  # noqa: PLC0415
         from rich.table import Table  # noqa: PLC0415
 
         with opened(self.folder) as store:
@@ -42,10 +42,10 @@ class Status:
             left = "" if each is None else spoken(each * (len(cards) - len(done)))
             cells = [str(counts[status]) for status in STATUSES]
             seconds = "" if each is None else f"{each:.1f}"
-            table.add_row(who, str(number), *cells, seconds, left)
-        print(f"{counted(len(present), 'photo')} in {self.folder}")
+            table.add_row(cell(who), str(number), *cells, seconds, left)
+        tell(f"{counted(len(present), 'photo')} in {self.folder}")
         if passes:
-            Console(width=max(Console().width, 100)).print(table)
+            tell_drawn(table, width=100)
         return GOOD
 
 
@@ -81,21 +81,22 @@ class Agreement:
                 f"no photo has been accepted by both {_named(one)} and {_named(other)}."
             )
         found = Found.of(pairs)
-        print(f"{_named(one)} and {_named(other)}, {counted(found.photos, 'photo')}")
-        print(f"  mean difference   {found.mean:.2f} px a column")
-        print(f"  worst difference  {found.worst:.0f} px")
+        tell(f"{_named(one)} and {_named(other)}, {counted(found.photos, 'photo')}")
+        tell(f"  mean difference   {found.mean:.2f} px a column")
+        tell(f"  worst difference  {found.worst:.0f} px")
         for most, share in zip(WITHIN, found.within, strict=True):
-            print(f"  within {most} px       {share:.1%} of {found.columns:,} columns")
-        print("Most apart:")
-        wide = max(len(pair.first.name) for pair in pairs[:6])
-        for pair in pairs[:6]:
-            print(f"  {pair.first.name:<{wide}}  mean {pair.mean:.2f}, worst {pair.worst:.0f} px")
+            tell(f"  within {most} px       {share:.1%} of {found.columns:,} columns")
+        tell("Most apart:")
+        names = [shortened(pair.first.name) for pair in pairs[:6]]
+        wide = max(map(columns_of, names))
+        for name, pair in zip(names, pairs, strict=False):
+            tell(f"  {padded(name, wide)}  mean {pair.mean:.2f}, worst {pair.worst:.0f} px")
         if self.picture:
             picture = drawn(pairs, self.folder)
             if picture is None:
                 raise UsageError(f"the photos are not in {self.folder} any more.")
             write_photo(self.picture, picture)
-            print(self.picture)
+            tell(str(self.picture))
         return GOOD
 
 

@@ -20,7 +20,7 @@ from annotate.commands.options import (
     opened,
     whoever,
 )
-from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say
+from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, tell
 from skyline_viz.commands.settings import OptionalFolder
 
 if TYPE_CHECKING:
@@ -62,9 +62,9 @@ class Export:
         export = export_labels(labels, self.folder, out, self.format)
         for note in export.notes:
             say(note, PROGRAM)
-        print(f"{counted(export.written, 'label')} in {out}")
+        tell(f"{counted(export.written, 'label')} in {out}")
         if missing := len(known) - export.written:
-            print(f"Not in it: {counted(missing, 'photo')} of the folder.")
+            tell(f"Not in it: {counted(missing, 'photo')} of the folder.")
         return GOOD
 
 
@@ -115,7 +115,7 @@ class Import:
                     say(f"{one.name} has been labelled by {who} in pass {number} already.", PROGRAM)
         finally:
             store.close()
-        print(f"{counted(len(found) - skipped, 'label')} imported into {self.folder}")
+        tell(f"{counted(len(found) - skipped, 'label')} imported into {self.folder}")
         if skipped:
             say("name another --annotator or --pass-number to keep both.", PROGRAM)
         return SOME_FAILED if skipped else GOOD
@@ -141,7 +141,7 @@ class Backup:
         if out.exists():
             raise UsageError(f"{out} exists already.")
         backup(self.folder, out)
-        print(out)
+        tell(str(out))
         return GOOD
 
 
