@@ -203,7 +203,10 @@ def _else_in(root: Path) -> str:
     """What a folder without photos holds instead, to end a sentence."""
     if unread := left_out(find_unread(root), root):
         return f"; {unread[:-1]}"
-    inside = [(folder.name, len(find_photos(folder))) for folder in _folders(root)]
+    others = [one for one in _folders(root) if one.name.lower() not in _TRUTH_FOLDERS]
+    inside = [
+        (one.name, sum(not _ADDED.search(f.stem) for f in find_photos(one))) for one in others
+    ]
     if full := [f"{name} ({count})" for name, count in inside if count]:
         return f" itself, but folders in it do: {', '.join(full)}; name those"
     return ""

@@ -6,7 +6,6 @@ that its only edge is the cut that somebody made; a hole inside takes the neares
 it has no edge at all. Half-transparent pixels have a colour, which is kept.
 """
 
-import cv2
 import numpy as np
 
 from skyline_viz.arrays import U8, Bool
@@ -30,6 +29,8 @@ def without_transparency(photo: U8, alpha: U8) -> tuple[U8, str | None]:
         return photo, None
     if clear.all():
         return photo, "is transparent all over; its colours are taken as they are"
+    import cv2  # noqa: PLC0415  # most photos do not need it
+
     _, labels = cv2.connectedComponents(clear.astype(np.uint8), connectivity=8)
     rim = np.unique(np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]]))
     cut_off = np.isin(labels, rim[rim > 0])

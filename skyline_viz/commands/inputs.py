@@ -42,11 +42,10 @@ def collect(paths: Sequence[Path]) -> list[Input]:
         if path.is_dir():
             items = dataset = open_dataset(path)
             _tell(dataset)
-        again += [
-            item.photo_path.name
-            for item in items
-            if found.setdefault(item.photo_path.resolve(), item) is not item
-        ]
+        for item in items:
+            first = found.setdefault(item.photo_path.resolve(), item).photo_path
+            if first.absolute() != item.photo_path.absolute():
+                again.append(item.photo_path.name)
     if again:
         links = "is another name of a photo" if len(again) == 1 else "are other names of photos"
         say(f"{counted(len(again), 'file')} {links} that is done already: {listed(again)}.")
