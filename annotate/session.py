@@ -15,7 +15,8 @@ from annotate.store import Photo, StaleError, Store
 from skyline_viz.arrays import U8
 from skyline_viz.constraints import PathError
 from skyline_viz.methods.protocol import Method
-from skyline_viz.photo import PhotoError, read_photo
+from skyline_viz.notes import note
+from skyline_viz.photo import PhotoError, read_photo_with_notes
 from skyline_viz.verdict import Verdict
 
 
@@ -142,7 +143,9 @@ def read_whole(folder: Path, photo: Photo) -> U8:
     Raises:
         PhotoError: It has vanished, cannot be read, or has another size.
     """
-    pixels = read_photo(folder / photo.name)
+    pixels, notes = read_photo_with_notes(folder / photo.name)
+    for one in notes:
+        note(one)
     if pixels.shape[:2] != (photo.height, photo.width):
         raise PhotoError(
             f"{photo.name} is another photo now: it was {photo.width}x{photo.height} pixels, and "

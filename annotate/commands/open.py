@@ -102,6 +102,12 @@ class Open:
         if not 0 <= self.port < 2**16:
             raise UsageError(f"ports are numbered up to 65535, so there is no port {self.port}.")
 
+    def _unread(self) -> list[str]:
+        """A sentence about pictures in the folder that cannot be read, where there are any."""
+        from annotate.folder import unread_below  # noqa: PLC0415
+
+        return [unread] if (unread := unread_below(self.folder)) else []
+
     def _serve(self) -> int:
         from annotate.doubts import read_doubts  # noqa: PLC0415
         from annotate.store import Store  # noqa: PLC0415
@@ -120,9 +126,11 @@ class Open:
         if doubts is not None and not bench.photos:
             raise UsageError(f"{self.from_diagnosis} doubts no truth of a photo in {self.folder}.")
         if not bench.photos:
-            raise UsageError(f"{self.folder} holds no photograph.")
+            raise UsageError(" ".join([f"{self.folder} holds no photograph.", *self._unread()]))
         for problem in bench.store.problems:
             say(problem, PROGRAM)
+        for unread in self._unread():
+            say(unread, PROGRAM)
         if self.order == "margin":
             propose_all(bench)
         progress = bench.progress()

@@ -9,9 +9,9 @@ from typing import Annotated
 
 import tyro
 
-from annotate.commands.options import PhotoFolder, opened
+from annotate.commands.options import PROGRAM, PhotoFolder, opened
 from annotate.labels import STATUSES
-from skyline_viz.commands.messages import GOOD, UsageError, counted, tell, tell_drawn
+from skyline_viz.commands.messages import GOOD, UsageError, counted, say, tell, tell_drawn
 from skyline_viz.commands.settings import check_picture
 from skyline_viz.names import cell, columns_of, padded, shortened
 
@@ -26,6 +26,8 @@ class Status:
     def run(self) -> int:
         """Print a table; return the exit status."""
         from rich.table import Table  # noqa: PLC0415
+
+        from annotate.folder import unread_below  # noqa: PLC0415
 
         with opened(self.folder) as store:
             present = {photo.id for photo in store.find()}
@@ -46,6 +48,8 @@ class Status:
         tell(f"{counted(len(present), 'photo')} in {self.folder}")
         if passes:
             tell_drawn(table, width=100)
+        if unread := unread_below(self.folder):
+            say(unread, PROGRAM)
         return GOOD
 
 

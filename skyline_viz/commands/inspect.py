@@ -174,6 +174,7 @@ class Inspect:
         failures: list[Failure],
     ) -> list[Path]:
         """Write the recordings, and return their files."""
+        from skyline_viz.names import recording_id  # noqa: PLC0415
         from skyline_viz.photo import PhotoError  # noqa: PLC0415
         from skyline_viz.recording import new_recording  # noqa: PLC0415
 
@@ -184,7 +185,7 @@ class Inspect:
             for group in groups:
                 name = group[0].name if len(group) == 1 else self.photos[0].resolve().name
                 together = self.save if not self.split else None
-                file = together or folder / f"{name}.rrd"
+                file = together or folder / f"{recording_id(name)}.rrd"
                 with suppress(_Nothing), new_recording(file, name) as recording:
                     contents = None
                     for step, one in enumerate(group):
