@@ -15,6 +15,7 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 
 from skyline_viz.files import flush, replacing
+from skyline_viz.names import shortened
 
 NAME = "skyline-labels.sqlite"
 """The file's name, in the folder of the photos."""
@@ -344,5 +345,4 @@ def migrate(connection: sqlite3.Connection, version: int) -> None:
 
 def shown(text: str) -> str:
     """Text from a file that may be damaged, as one short line that any terminal can show."""
-    plain = "".join(one if one.isprintable() else "?" for one in text)
-    return plain if len(plain) <= _LONGEST else f"{plain[:_LONGEST]}..."
+    return shortened(text, _LONGEST)

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from skyline_viz.photo import find_photos
+from skyline_viz.photo_files import find_unread
+from skyline_viz.photo_kinds import left_out
 
 
 def photos_below(folder: Path) -> Iterator[Path]:
@@ -14,3 +16,12 @@ def photos_below(folder: Path) -> Iterator[Path]:
     for place, folders, _ in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         yield from find_photos(place)
+
+
+def unread_below(folder: Path) -> str | None:
+    """A sentence about pictures of a folder, and of those in it, that cannot be read."""
+    found: list[Path] = []
+    for place, folders, _ in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        found += find_unread(place)
+    return left_out(found, folder)

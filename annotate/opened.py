@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from annotate.database import StoreError
 from annotate.identity import Photo, Stamp, file_digest, pixel_digest
 from skyline_viz.arrays import U8
-from skyline_viz.photo import PhotoError, read_photo
+from skyline_viz.notes import note
+from skyline_viz.photo import PhotoError, read_photo, read_photo_with_notes
 
 if TYPE_CHECKING:
     from annotate.store import Store
@@ -120,12 +121,14 @@ def _read(store: Store, photo: Photo) -> tuple[U8, Marks]:
     known = store.photo(photo.id)  # its metadata may have been edited since the folder was read
     for _ in range(_TRIES):
         marks = _marks(path)
-        pixels = read_photo(path)
+        pixels, notes = read_photo_with_notes(path)
         digest = file_digest(path)
         if marks is not None and _marks(path) == marks:
             break
     else:
         raise PhotoError(f"{photo.name} is being written by another program.")
+    for sentence in notes:
+        note(sentence)
     height, width = pixels.shape[:2]
     same = (height, width) == (known.height, known.width)
     if not same and digest == known.digest:

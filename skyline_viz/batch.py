@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from multiprocessing.synchronize import Event
 from typing import Protocol, TypeVar
 
+from skyline_viz.notes import heard_by, note
 from skyline_viz.progress import ProgressBar
 
 _HANDFUL = 24
@@ -132,7 +133,8 @@ def sentence(error: BaseException) -> str:
     >>> sentence(KeyError("x"))
     "unexpected KeyError: 'x'"
     """
-    text = " ".join(str(error).split())
+    ours = type(error).__module__.startswith(("skyline_viz", "annotate"))
+    text = str(error) if ours else " ".join(str(error).split())  # ours is one line, with names
     if isinstance(error, OSError) and error.strerror:
         reason = error.strerror[0].lower() + error.strerror[1:]
         if not error.filename:
@@ -142,7 +144,6 @@ def sentence(error: BaseException) -> str:
         return f"{folder if name.startswith('.') and folder else path}: {reason}"
     if isinstance(error, MemoryError):
         return "it does not fit into memory"
-    ours = type(error).__module__.startswith(("skyline_viz", "annotate"))
     if text and (ours or type(error) in (ValueError, OSError)):
         return text
     return f"unexpected {type(error).__name__}: {text}"
@@ -161,7 +162,7 @@ def _in_processes(
     context = multiprocessing.get_context("spawn")  # works everywhere, and inherits no threads
     stop = context.Event()
     pool = ProcessPoolExecutor(workers, context, initializer=_prepare_worker, initargs=(stop,))
-    waiting: deque[Future[Value | Failure]] = deque()
+    waiting: deque[Future[tuple[Value | Failure, list[str]]]] = deque()
     coming = iter(tasks)
     try:
         while True:
@@ -172,7 +173,10 @@ def _in_processes(
                     break
             if not waiting:
                 return
-            yield waiting.popleft().result()
+            outcome, notes = waiting.popleft().result()
+            for one in notes:  # of its photos, which nobody hears in a worker
+                note(one)
+            yield outcome
     except BrokenProcessPool:
         raise BatchError(
             "a worker process died, probably for want of memory; try fewer workers."
@@ -196,10 +200,15 @@ def _prepare_worker(stop: Event) -> None:
     _Worker.stop = stop
 
 
-def _attempt_in_worker(function: Callable[[Task], Value], task: Task) -> Value | Failure:
+def _attempt_in_worker(
+    function: Callable[[Task], Value], task: Task
+) -> tuple[Value | Failure, list[str]]:
+    """The outcome, and what was noted about photos on the way."""
     if _Worker.stop and _Worker.stop.is_set():
-        return Failure(task.name, "interrupted")
-    return attempt(function, task)
+        return Failure(task.name, "interrupted"), []
+    notes: list[str] = []
+    with heard_by(notes.append):
+        return attempt(function, task), notes
 
 
 @contextlib.contextmanager

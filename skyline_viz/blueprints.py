@@ -18,6 +18,7 @@ import rerun.blueprint as rrb
 
 from skyline_viz import entities
 from skyline_viz.entities import below
+from skyline_viz.names import shown_in_viewer
 
 TABS = ("Skyline", "Stages", "Tensor", "Filter bank", "Columns")
 """The tabs of a recording of one photo with a full detection."""
@@ -258,9 +259,8 @@ def _compare_tab(contents: Contents) -> rrb.Container:
             ),
         ]
     text = rrb.TextDocumentView(origin=entities.COMPARISON, name="What differs")
-    other = rrb.TextDocumentView(
-        origin=below(entities.OTHER, entities.REPORT), name=f"Report of {contents.compared}"
-    )
+    title = shown_in_viewer(f"Report of {contents.compared}")
+    other = rrb.TextDocumentView(origin=below(entities.OTHER, entities.REPORT), name=title)
     shares = [4, 4, 4, 6]  # the reports need their lines
     return rrb.Grid(*views, text, other, grid_columns=2, row_shares=shares, name="Compare")
 
@@ -334,7 +334,7 @@ def _photo_view(
         visual_bounds=bounds,
         origin="/",
         contents=[f"+ /{entity}" for entity in shown],
-        name=title,
+        name=shown_in_viewer(title),
         background=_BLACK,
     )
 

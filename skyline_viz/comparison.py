@@ -8,6 +8,8 @@ import rerun as rr
 from skyline_viz import entities
 from skyline_viz.column_views import ALTERNATIVE_RADIUS, curve, log_line
 from skyline_viz.detection import Detection
+from skyline_viz.documents import markdown_document
+from skyline_viz.names import named_in_markdown
 from skyline_viz.overlay import ALTERNATIVE
 from skyline_viz.recording import Fidelity, log_detection
 from skyline_viz.report import listed_segments
@@ -50,10 +52,10 @@ def log_comparison(
     apart = wrong_segments(np.abs(lower).astype(np.float64), height)
     words = listed_segments(apart) or "none"
     text = (
-        f"**{name}** against the first  \n"
+        f"**{named_in_markdown(name)}** against the first  \n"
         f"Columns over 1 % of the height apart: {words}  \n"
         f"Largest difference {np.abs(lower).max():.0f} px, "
         f"mean {np.abs(lower).mean():.2f} px\n"
     )
-    recording.log(entities.COMPARISON, rr.TextDocument(text, media_type="text/markdown"))
+    recording.log(entities.COMPARISON, markdown_document(text))
     return verdict

@@ -27,13 +27,17 @@ from pathlib import Path
 from typing import Literal
 
 from skyline_viz.arrays import U8
-from skyline_viz.photo import PhotoError, find_photos, photo_size, read_photo
+from skyline_viz.notes import note
+from skyline_viz.photo import PhotoError, find_photos, photo_size, read_photo_with_notes
+from skyline_viz.photo_files import find_unread
+from skyline_viz.photo_kinds import left_out
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, read_truth
 
 Layout = Literal["Basalt", "Web", "CH1", "GeoPose3K", "plain"]
 """The published layouts, and the folder of photographs that follows none of them."""
 
+_TRUTH_FOLDERS = ("ground_truth", "masks")
 _CH1_PARTS = ("cvg", "panoramio", "poor_edge_images")
 _NUMBERED = re.compile(r"(?:gt_)?(?:(marsim)|r_gimag|googleimage)(\d+)(?:_edge)?", re.IGNORECASE)
 _ADDED = re.compile(r"([-_]mask|_edge)$", re.IGNORECASE)
@@ -60,12 +64,15 @@ class DatasetItem:
     """Whether the truth is a GeoPose3K label map, in which black is sky."""
 
     def photo(self) -> U8:
-        """Read the photo, ``(H, W, 3)`` uint8 RGB.
+        """Read the photo, ``(H, W, 3)`` uint8 RGB; what there is to know about it is noted.
 
         Raises:
             PhotoError: It cannot be read.
         """
-        return read_photo(self.photo_path)
+        photo, notes = read_photo_with_notes(self.photo_path)
+        for one in notes:
+            note(one)
+        return photo
 
     def truth(self) -> Skyline | None:
         """Read the truth; None where there is none.
@@ -90,7 +97,11 @@ class Dataset:
     """The photos with their truths, by name."""
 
     problems: tuple[str, ...] = ()
-    """One sentence for each file that was left out, naming it and the reason."""
+    """One sentence for each truth that was left out, naming it and the reason."""
+
+    left_out: tuple[str, ...] = ()
+    """What else lies there: a sentence about pictures that cannot be read, grouped by the reason,
+    and one about photos in folders in which none is looked for."""
 
     def __iter__(self) -> Iterator[DatasetItem]:
         return iter(self.items)
@@ -120,7 +131,7 @@ def open_dataset(folder: str | os.PathLike[str]) -> Dataset:
         reason = error.strerror or str(error)
         raise DatasetError(f"{root} cannot be read: {reason.lower()}.") from error
     if not found:
-        raise DatasetError(f"{root} holds no photograph.")
+        raise DatasetError(f"{root} holds no photograph{_else_in(root)}.")
     if len(found) > 1:
         names = ", ".join(dataset.name for dataset in found)
         raise DatasetError(f"{root} holds several data sets, {names}; open one of them.")
@@ -162,7 +173,43 @@ def _recognise(root: Path) -> Dataset | None:
     if not items:
         return None
     items.sort(key=lambda item: item.name)
-    return Dataset(root.absolute().name, layout, tuple(items), tuple(problems))
+    # folders of GeoPose3K hold pictures of other kinds, too
+    left = () if layout == "GeoPose3K" else _not_taken(root, items)
+    return Dataset(root.absolute().name, layout, tuple(items), tuple(problems), left)
+
+
+def _not_taken(root: Path, items: list[DatasetItem]) -> tuple[str, ...]:
+    """See `Dataset.left_out`."""
+    taken = {item.photo_path.parent for item in items}
+    homes = sorted({root, *taken, *(folder.parent for folder in taken if folder != root)})
+    unread = left_out((file for home in homes for file in find_unread(home)), root)
+    return tuple(one for one in (unread, _photos_elsewhere(root, taken)) if one)
+
+
+def _photos_elsewhere(root: Path, taken: set[Path]) -> str | None:
+    """A sentence about photos in folders of a data set in which none is looked for."""
+    elsewhere = {}
+    for folder in [root, *_folders(root)]:
+        truths = folder.name.lower() in _TRUTH_FOLDERS and folder != root
+        if folder not in taken and not truths and (count := len(find_photos(folder))):
+            elsewhere["the folder itself" if folder == root else folder.name] = count
+    if not elsewhere:
+        return None
+    named = ", ".join(f"{count} in {name}" for name, count in elsewhere.items())
+    return f"photos in other places are not taken: {named}; name those folders to take them."
+
+
+def _else_in(root: Path) -> str:
+    """What a folder without photos holds instead, to end a sentence."""
+    if unread := left_out(find_unread(root), root):
+        return f"; {unread[:-1]}"
+    others = [one for one in _folders(root) if one.name.lower() not in _TRUTH_FOLDERS]
+    inside = [
+        (one.name, sum(not _ADDED.search(f.stem) for f in find_photos(one))) for one in others
+    ]
+    if full := [f"{name} ({count})" for name, count in inside if count]:
+        return f" itself, but folders in it do: {', '.join(full)}; name those"
+    return ""
 
 
 def _match(root: Path, folder: Path, prefix: str, problems: list[str]) -> list[DatasetItem]:

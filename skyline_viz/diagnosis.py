@@ -33,6 +33,7 @@ from skyline_viz.cost_split import CostSplit, split_cost
 from skyline_viz.counterfactual import CHANGES, REPAIRED, Case, Change, scaled
 from skyline_viz.detection import Detection
 from skyline_viz.doubt import doubt_of
+from skyline_viz.names import named_in_markdown
 from skyline_viz.skyline import Skyline, SkylineError
 
 TOLERANCE = 4.0
@@ -168,7 +169,7 @@ class Diagnosis:
 
     def markdown(self, name: str = "") -> str:
         """A report for people, the segment with the largest total error first."""
-        lines = [f"**{name}**  "] if name else []
+        lines = [f"**{named_in_markdown(name)}**  "] if name else []
         if self.right:
             return "\n".join([*lines, self.said_right])
         for one in self.by_error:

@@ -18,6 +18,7 @@ from skyline_viz.cost_split import CostSplit, split_cost
 from skyline_viz.counterfactual import Case
 from skyline_viz.detection import Detection
 from skyline_viz.diagnosis import Diagnosis, Segment
+from skyline_viz.documents import markdown_document
 from skyline_viz.overlay import ALTERNATIVE, HALO
 from skyline_viz.recording import Fidelity
 from skyline_viz.skyline import Skyline
@@ -60,7 +61,7 @@ def log_diagnosis(
             of a lean recording, and several times as long as the rest.
     """
     text = diagnosis.markdown(name)
-    recording.log(entities.DIAGNOSIS, rr.TextDocument(text, media_type="text/markdown"))
+    recording.log(entities.DIAGNOSIS, markdown_document(text))
     if diagnosis.right:
         return
     case = Case(detection, truth, diagnosis.tolerance)

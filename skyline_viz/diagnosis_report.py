@@ -20,6 +20,7 @@ from skyline_viz.diagnosis import Diagnosis, diagnose, failing_runs
 from skyline_viz.evaluation import Test
 from skyline_viz.files import replacing, write_text
 from skyline_viz.metrics import column_errors
+from skyline_viz.names import printable
 from skyline_viz.skyline import Skyline, SkylineError
 
 if TYPE_CHECKING:
@@ -211,7 +212,7 @@ def remedies_table(found: Sequence[Diagnosed]) -> str:
 def in_full(one: Diagnosed) -> str:
     """Everything about a photo, for a terminal."""
     diagnosis = one.diagnosis
-    lines = [f"{one.name}  A_err {one.a_err:.2f} px"]
+    lines = [f"{printable(one.name)}  A_err {one.a_err:.2f} px"]
     if diagnosis.right:
         return f"{lines[0]}\n{diagnosis.said_right}"
     for segment in diagnosis.by_error:
@@ -237,7 +238,10 @@ def in_full(one: Diagnosed) -> str:
 
 def write_csv(path: str | os.PathLike[str], found: Iterable[Diagnosed]) -> None:
     """Write a line a segment."""
-    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+    with (
+        replacing(path) as temporary,
+        temporary.open("w", newline="", encoding="utf-8", errors="backslashreplace") as file,
+    ):
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(_HEADER)
         for one in found:
@@ -289,7 +293,7 @@ def _drawn(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
         drawn.add_column(title, justify="right" if number else "left")
     for row in rows:
         drawn.add_row(*row)
-    console = Console(width=100, highlight=False)
+    console = Console(width=100, highlight=False, color_system=None)
     with console.capture() as captured:
         console.print(drawn)
     return captured.get().rstrip("\n")

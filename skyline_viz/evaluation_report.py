@@ -14,6 +14,7 @@ import numpy as np
 
 from skyline_viz.arrays import F64
 from skyline_viz.files import replacing, write_text
+from skyline_viz.names import cell, printable, shown_in_viewer
 from skyline_viz.results import PhotoResult, Summary
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ def worst_table(results: Sequence[PhotoResult]) -> "Table":
         table.add_column(heading, justify="right")
     for one in results:
         table.add_row(
-            one.name,
+            cell(one.name),
             f"{one.a_err:.2f} px" + (" (gross miss)" if one.gross_miss else ""),
             f"{one.worst_error:.1f} px",
             f"{one.worst_column}",
@@ -77,13 +78,13 @@ def methods_table(results: Mapping[str, Sequence[PhotoResult]]) -> "Table":
         table.add_column(heading, justify="right")
     for name, found in results.items():
         if not found:
-            table.add_row(name, *["-"] * 9)
+            table.add_row(cell(name), *["-"] * 9)
             continue
         one = Summary.of(found)
         errors = (one.mean, one.standard_deviation, one.median, one.minimum, one.maximum)
         good = f"{round(one.under_4_px * one.photos)}/{one.photos}"
         table.add_row(
-            name,
+            cell(name),
             *(f"{error:.2f}" for error in errors),
             good,
             f"{one.gross_misses}",
@@ -175,7 +176,7 @@ def write_histogram(
         fontsize=8,
         color=_GREY,
     )
-    axes.set_title(title, loc="left", fontsize=11)
+    axes.set_title(shown_in_viewer(printable(title)), parse_math=False, loc="left", fontsize=11)
     axes.set_xlabel("$A_{err}$ (pixels)")
     axes.set_ylabel("share of photos")
     edges = range(HISTOGRAM_TOP)

@@ -2,7 +2,7 @@
 
 A gallery is a folder::
 
-    recordings/NAME.rrd   stages of each photo, lean
+    recordings/NAME.rrd   stages of each photo, lean; odd names are spelt in plain letters
     gallery.json          what each detection came to, why, and what it was made from
     flags.json            which photos are reviewed, and comments
 
@@ -34,6 +34,7 @@ from skyline_viz.evaluation import warm_up
 from skyline_viz.files import write_text
 from skyline_viz.methods.protocol import Method
 from skyline_viz.methods.registry import method_digest
+from skyline_viz.names import recording_id
 from skyline_viz.recording import log_detection, new_recording
 from skyline_viz.report import listed_segments
 
@@ -141,7 +142,7 @@ class Gallery:
 
     def recording(self, name: str) -> Path:
         """File of a photo's recording."""
-        return self.folder / "recordings" / f"{name}.rrd"
+        return self.folder / "recordings" / f"{recording_id(name)}.rrd"
 
     def entries(self) -> dict[str, Entry]:
         """Photos that were done, by name; none of those that an earlier version did.

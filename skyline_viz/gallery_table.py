@@ -21,6 +21,7 @@ from skyline_viz import entities
 from skyline_viz.blueprints import Contents, detection_blueprint
 from skyline_viz.causes import Cause
 from skyline_viz.gallery import Entry, Flag, Gallery
+from skyline_viz.names import recording_id, shortened, shown_in_viewer
 from skyline_viz.recording import APPLICATION
 from skyline_viz.viewer import LOOPBACK, free_port
 
@@ -44,6 +45,9 @@ class ServedGallery:
     flags: dict[str, Flag]
     """What is on disk about reviews and comments."""
 
+    names: dict[str, str]
+    """Name of each photo in it, by its identifier."""
+
     _client: Any = field(repr=False)  # the server forgets its tables when it is dropped
 
     reviewed: int = 0
@@ -52,7 +56,13 @@ class ServedGallery:
     def save_edits(self) -> bool:
         """Write what people edited in the viewer since; return whether there was anything."""
         rows = self.table.reader().to_arrow_table().to_pylist()
-        said = {row["name"]: Flag(bool(row["reviewed"]), row["comment"] or "") for row in rows}
+        said = {}
+        for row in rows:
+            name, comment = self.names[row["id"]], row["comment"] or ""
+            before = self.flags.get(name, Flag()).comment
+            if comment == shown_in_viewer(before):  # nobody has edited it
+                comment = before
+            said[name] = Flag(bool(row["reviewed"]), comment)
         self.reviewed = sum(flag.reviewed for flag in said.values())
         merged = self.flags | {
             name: flag for name, flag in said.items() if flag != Flag() or name in self.flags
@@ -78,6 +88,7 @@ def served(
     """
     files = [gallery.recording(entry.name) for entry in entries]
     flags = gallery.flags()
+    names = {recording_id(entry.name): entry.name for entry in entries}
     with (
         tempfile.TemporaryDirectory(prefix="skyline-viz-") as folder,
         rr.server.Server(host=LOOPBACK, port=free_port(), datasets={_DATASET: files}) as server,
@@ -104,7 +115,7 @@ def served(
         _cards(truth, cause, compared).save(_TABLE, cards)
         table.register_blueprint(cards.as_uri())
         address = f"{server.url()}/entry/{table.id}"
-        one = ServedGallery(address, gallery, table, flags, client)
+        one = ServedGallery(address, gallery, table, flags, names, client)
         one.save_edits()  # nothing yet, but counts what is reviewed
         try:
             yield one
@@ -115,7 +126,8 @@ def served(
 _INDEX = {rr.SORBET_IS_TABLE_INDEX: "true"}
 _SCHEMA = pa.schema(
     [
-        pa.field("name", pa.utf8(), metadata=_INDEX),
+        pa.field("id", pa.utf8(), metadata=_INDEX),
+        pa.field("name", pa.utf8()),
         pa.field("photo", pa.utf8()),
         pa.field("a_err", pa.float32()),
         pa.field("worst", pa.utf8()),
@@ -138,8 +150,9 @@ def _columns(
 ) -> dict[str, list[Any]]:
     said = [flags.get(entry.name, Flag()) for entry in entries]
     return {
-        "name": [entry.name for entry in entries],
-        "photo": [photos.segment_url(entry.name) for entry in entries],
+        "id": [recording_id(entry.name) for entry in entries],
+        "name": [shown_in_viewer(shortened(entry.name)) for entry in entries],
+        "photo": [photos.segment_url(recording_id(entry.name)) for entry in entries],
         "a_err": [_rounded(one.a_err) for one in entries],
         "worst": [_worst(entry) for entry in entries],
         "difference": [_rounded(one.difference) for one in entries],
@@ -149,7 +162,7 @@ def _columns(
         "cause": [None if one.causes is None else one.cause or "none" for one in entries],
         "causes": [None if one.causes is None else ", ".join(one.causes) for one in entries],
         "reviewed": [flag.reviewed for flag in said],
-        "comment": [flag.comment for flag in said],
+        "comment": [shown_in_viewer(flag.comment) for flag in said],
     }
 
 
@@ -177,7 +190,9 @@ def _cards(truth: bool, cause: Cause | None, compared: str) -> rrt.TableBlueprin
         rrt.Column("wrong", name="wrong"),
     ]
     against = (
-        [rrt.Column("difference", name=f"yellow is {compared}, apart (px)")] if compared else []
+        [rrt.Column("difference", name=shown_in_viewer(f"yellow is {compared}, apart (px)"))]
+        if compared
+        else []
     )
     if compared and truth:
         against.append(rrt.Column("other_a_err", name="its A_err (px)"))

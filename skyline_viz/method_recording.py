@@ -9,6 +9,7 @@ import rerun as rr
 from skyline_viz import entities
 from skyline_viz.column_views import log_line
 from skyline_viz.detection import Detection
+from skyline_viz.documents import markdown_document
 from skyline_viz.overlay import Colour
 from skyline_viz.recording import Fidelity, log_detection
 from skyline_viz.skyline import Skyline
@@ -65,7 +66,7 @@ def log_methods(
     if truth:
         lines.append("| turquoise | truth | | | |")
     text = "\n".join(lines)
-    recording.log(entities.METHODS_TABLE, rr.TextDocument(text, media_type="text/markdown"))
+    recording.log(entities.METHODS_TABLE, markdown_document(text))
 
 
 def _row(colour: str, detection: Detection, verdict: Verdict) -> str:

@@ -14,6 +14,7 @@ import rerun.notebook as rrn
 
 from skyline_viz.blueprints import Contents, detection_blueprint
 from skyline_viz.detection import Detection
+from skyline_viz.names import printable, shown_in_viewer
 from skyline_viz.recording import APPLICATION, Fidelity, log_detection
 from skyline_viz.skyline import Skyline
 
@@ -46,7 +47,7 @@ def show_detection(
         raise ImportError('viewers in notebooks need: pip install "skyline-viz[notebook]".')
     recording = rr.RecordingStream(APPLICATION)
     recording.set_log_time_enabled(False)
-    recording.send_recording_name(name)
+    recording.send_recording_name(shown_in_viewer(printable(name)))
     rows, columns = detection.photo.shape[:2]
     contents = Contents(rows, columns, truth=truth is not None, bank=fidelity == "full")
     viewer = rrn.Viewer(

@@ -31,7 +31,9 @@ from skyline_viz.blueprints import Contents, detection_blueprint, stages_bluepri
 from skyline_viz.column_views import TRUTH_RADIUS, log_columns, log_line
 from skyline_viz.detection import Detection
 from skyline_viz.detector import FilterDetection
+from skyline_viz.documents import markdown_document
 from skyline_viz.files import replacing
+from skyline_viz.names import printable, recording_id, shown_in_viewer
 from skyline_viz.overlay import PATH, TRUTH
 from skyline_viz.report import report
 from skyline_viz.skyline import Skyline, SkylineError
@@ -73,11 +75,13 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
     with replacing(path) as temporary:
         batches = rr.ChunkBatcherConfig.DEFAULT()
         batches.flush_num_bytes = _BATCH  # compress maps while the next ones are made
-        recording = rr.RecordingStream(APPLICATION, recording_id=name, batcher_config=batches)
+        recording = rr.RecordingStream(
+            APPLICATION, recording_id=recording_id(name), batcher_config=batches
+        )
         recording.set_log_time_enabled(False)  # else a photo would be a film of its stages
         recording.save(temporary)
         try:
-            recording.send_recording_name(name)
+            recording.send_recording_name(shown_in_viewer(printable(name)))
             yield recording
         except KeyboardInterrupt as stopped:
             interrupted = stopped
@@ -136,7 +140,7 @@ def log_detection(
     for stage, seconds in detection.seconds.items():
         recording.log(at(f"{entities.TIMINGS}/{stage}"), rr.Scalars(1000 * seconds))
     text = report(name, detection, verdict, count)
-    recording.log(at(entities.REPORT), rr.TextDocument(text, media_type="text/markdown"))
+    recording.log(at(entities.REPORT), markdown_document(text))
     if fidelity == "full":
         ours = isinstance(detection, FilterDetection)
         if isinstance(detection, FilterDetection):

@@ -8,6 +8,7 @@ from dataclasses import fields
 from skyline_viz.config import DetectorConfig
 from skyline_viz.detection import Detection
 from skyline_viz.detector import FilterDetection
+from skyline_viz.names import named_in_markdown
 from skyline_viz.verdict import Verdict
 
 _MOST_SEGMENTS = 6
@@ -25,7 +26,7 @@ def report(name: str, detection: Detection, verdict: Verdict, shown: int) -> str
     height, width = detection.edges.shape
     edges = len(detection.scores)
     lines = [
-        f"**{name or 'photo'}**  ",
+        f"**{named_in_markdown(name or 'photo')}**  ",
         f"{width} x {height} px",
         "",
         *_verdict(verdict),
@@ -92,5 +93,9 @@ def _how(detection: Detection) -> str:
     else:
         settings = ", ".join(settings_changed(detection.config)) or "default settings"
     made = detection.bank.provenance
-    bank = f"{made.images} photos of {made.dataset}" if made.images else "an unknown source"
+    bank = (
+        f"{made.images} photos of {named_in_markdown(made.dataset)}"
+        if made.images
+        else "an unknown source"
+    )
     return f"{settings.capitalize()}; filters learned from {bank}."

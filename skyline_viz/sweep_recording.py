@@ -16,6 +16,7 @@ from skyline_viz import entities
 from skyline_viz.column_views import ALTERNATIVE_RADIUS, log_line
 from skyline_viz.detection import Detection
 from skyline_viz.detector import FilterDetection
+from skyline_viz.documents import markdown_document
 from skyline_viz.overlay import ALTERNATIVE, PATH
 from skyline_viz.recording import encoded_edges
 from skyline_viz.report import listed_segments
@@ -78,7 +79,7 @@ def log_sweeps(
         recording.set_time(sweep.timeline, sequence=sweep.steps[0].at)
         recording.log(
             entities.BANK_USED,
-            _markdown(f"Choose the timeline *{entities.COLUMN}* below, and drag it."),
+            markdown_document(f"Choose the timeline *{entities.COLUMN}* below, and drag it."),
         )
         outcomes[sweep.timeline] = _log_sweep(recording, sweep, found, truth, advance)
     now = Verdict.of(found.skyline, found.margins(), len(found.photo), truth)
@@ -87,7 +88,9 @@ def log_sweeps(
         recording.reset_time()
         for outcome in outcomes[sweep.timeline]:
             recording.set_time(sweep.timeline, sequence=outcome.step.at)
-            recording.log(entities.SWEEP_REPORT, _markdown(_report(sweep, outcome, now, summary)))
+            recording.log(
+                entities.SWEEP_REPORT, markdown_document(_report(sweep, outcome, now, summary))
+            )
     recording.reset_time()
     recording.set_time(entities.IMAGE, sequence=0)
     recording.set_time(entities.COLUMN, sequence=0)
@@ -95,7 +98,7 @@ def log_sweeps(
     words = (
         f"**The present settings**\n\nChoose a setting's timeline below, and drag it.\n\n{summary}"
     )
-    recording.log(entities.SWEEP_REPORT, _markdown(words))
+    recording.log(entities.SWEEP_REPORT, markdown_document(words))
     recording.reset_time()
 
 
@@ -194,7 +197,3 @@ def _summary(sweeps: Sequence[Sweep], outcomes: dict[str, list[_Outcome]], now: 
         best = min(outcomes[sweep.timeline], key=rank)
         lines.append(f"| {sweep.title} | {best.error:.2f} px | {best.step.value} |")
     return "\n".join(lines) + "\n"
-
-
-def _markdown(text: str) -> rr.TextDocument:
-    return rr.TextDocument(text, media_type="text/markdown")

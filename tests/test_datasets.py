@@ -481,7 +481,10 @@ def test_a_damaged_photo_stays_and_says_so(tmp_path):
         (lambda path: path.mkdir(), "holds no photograph"),
         (lambda path: put(path / "masks" / "a.png", MASK), "holds no photograph"),
         (lambda path: put(path / "images" / "a-mask.png", MASK), "holds no photograph"),
-        (lambda path: put(path / "holiday" / "a.png"), "holds no photograph"),
+        (
+            lambda path: put(path / "holiday" / "a.png"),
+            "holds no photograph itself, but folders in it do: holiday (1); name those",
+        ),
     ],
 )
 def test_what_is_no_data_set(tmp_path, make, reason):

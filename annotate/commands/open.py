@@ -20,7 +20,7 @@ from annotate.commands.options import (
     whoever,
 )
 from annotate.labels import MOST_PASSES
-from skyline_viz.commands.messages import GOOD, UsageError, counted, say
+from skyline_viz.commands.messages import GOOD, UsageError, counted, say, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detector
 from skyline_viz.config import DetectorConfig
@@ -95,6 +95,12 @@ class Open:
         if not 0 <= self.port < 2**16:
             raise UsageError(f"ports are numbered up to 65535, so there is no port {self.port}.")
 
+    def _unread(self) -> list[str]:
+        """A sentence about pictures in the folder that cannot be read, where there are any."""
+        from annotate.folder import unread_below  # noqa: PLC0415
+
+        return [unread] if (unread := unread_below(self.folder)) else []
+
     def _serve(self) -> int:
         from annotate.doubts import read_doubts  # noqa: PLC0415
         from annotate.store import Store  # noqa: PLC0415
@@ -113,16 +119,18 @@ class Open:
         if doubts is not None and not bench.photos:
             raise UsageError(f"{self.from_diagnosis} doubts no truth of a photo in {self.folder}.")
         if not bench.photos:
-            raise UsageError(f"{self.folder} holds no photograph.")
+            raise UsageError(" ".join([f"{self.folder} holds no photograph.", *self._unread()]))
         for problem in bench.store.problems:
             say(problem, PROGRAM)
+        for unread in self._unread():
+            say(unread, PROGRAM)
         if self.order == "margin":
             propose_all(bench)
         progress = bench.progress(bench.cards())
         left = progress.total - progress.done
-        print(f"{counted(progress.total, 'photo')} in {self.folder}, {left} to label.")
+        tell(f"{counted(progress.total, 'photo')} in {self.folder}, {left} to label.")
         serve(bench, self.host, self.port, browser=not self.no_browser)
-        print(f"Labels are in {self.folder}.")
+        tell(f"Labels are in {self.folder}.")
         return GOOD
 
 
@@ -154,10 +162,10 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
     app = make_app(bench, token, allowed_hosts(host, port))
     name = "127.0.0.1" if host in ("0.0.0.0", "::") else host  # noqa: S104
     address = f"http://{f'[{name}]' if ':' in name else name}:{port}/?token={token}"
-    print(f"Label at {address}")
+    tell(f"Label at {address}")
     if host not in ("127.0.0.1", "::1", "localhost"):
         say(f"{host} lets other machines in; whoever knows the address can change labels.", PROGRAM)
-    print("Ctrl-C ends.", flush=True)
+    tell("Ctrl-C ends.")
     if browser and has_display():
         webbrowser.open(address)
     config = uvicorn.Config(

@@ -11,8 +11,9 @@ import tyro
 
 from annotate.commands.options import PROGRAM, PhotoFolder, opened
 from annotate.labels import STATUSES
-from skyline_viz.commands.messages import GOOD, UsageError, counted, say
+from skyline_viz.commands.messages import GOOD, UsageError, counted, say, tell, tell_drawn
 from skyline_viz.commands.settings import Switch, check_picture
+from skyline_viz.names import cell, columns_of, padded, shortened
 
 
 @dataclass(frozen=True)
@@ -27,10 +28,9 @@ class Status:
 
     def run(self) -> int:
         """Print a table; return the exit status."""
-        from rich.console import Console  # noqa: PLC0415
         from rich.table import Table  # noqa: PLC0415
 
-        from annotate.database import shown  # noqa: PLC0415
+        from annotate.folder import unread_below  # noqa: PLC0415
         from annotate.joined import gone, joined  # noqa: PLC0415
 
         with opened(self.folder) as store:
@@ -50,15 +50,18 @@ class Status:
             left = "" if each is None else spoken(each * (len(cards) - len(done)))
             cells = [str(counts[status]) for status in STATUSES]
             seconds = "" if each is None else f"{each:.1f}"
-            table.add_row(who, str(number), *cells, seconds, left)
-        print(f"{counted(len(present), 'photo')} in {self.folder}")
+            table.add_row(cell(who), str(number), *cells, seconds, left)
+        tell(f"{counted(len(present), 'photo')} in {self.folder}")
         if passes:
-            Console(width=max(Console().width, 100)).print(table)
+            tell_drawn(table, width=100)
         if self.orphans:
             for one in found.orphans:
                 whose = f"{one.annotator}, pass {one.number}, {one.status}"
-                print(f"{shown(one.name)} ({one.digest}): {whose}")
-        for note in (*store.problems, *found.damaged, *aside, *gone(found.orphans)):
+                tell(f"{shortened(one.name)} ({one.digest}): {whose}")
+        notes = [*store.problems, *found.damaged, *aside, *gone(found.orphans)]
+        if unread := unread_below(self.folder):
+            notes.append(unread)
+        for note in notes:
             say(note, PROGRAM)
         return GOOD
 
@@ -99,21 +102,22 @@ class Agreement:
                 f"no photo has been accepted by both {_named(one)} and {_named(other)}."
             )
         found = Found.of(pairs)
-        print(f"{_named(one)} and {_named(other)}, {counted(found.photos, 'photo')}")
-        print(f"  mean difference   {found.mean:.2f} px a column")
-        print(f"  worst difference  {found.worst:.0f} px")
+        tell(f"{_named(one)} and {_named(other)}, {counted(found.photos, 'photo')}")
+        tell(f"  mean difference   {found.mean:.2f} px a column")
+        tell(f"  worst difference  {found.worst:.0f} px")
         for most, share in zip(WITHIN, found.within, strict=True):
-            print(f"  within {most} px       {share:.1%} of {found.columns:,} columns")
-        print("Most apart:")
-        wide = max(len(pair.first.name) for pair in pairs[:6])
-        for pair in pairs[:6]:
-            print(f"  {pair.first.name:<{wide}}  mean {pair.mean:.2f}, worst {pair.worst:.0f} px")
+            tell(f"  within {most} px       {share:.1%} of {found.columns:,} columns")
+        tell("Most apart:")
+        names = [shortened(pair.first.name) for pair in pairs[:6]]
+        wide = max(map(columns_of, names))
+        for name, pair in zip(names, pairs, strict=False):
+            tell(f"  {padded(name, wide)}  mean {pair.mean:.2f}, worst {pair.worst:.0f} px")
         if self.picture:
             picture = drawn(pairs, self.folder)
             if picture is None:
                 raise UsageError(f"the photos are not in {self.folder} any more.")
             write_photo(self.picture, picture)
-            print(self.picture)
+            tell(str(self.picture))
         return GOOD
 
 

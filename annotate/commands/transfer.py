@@ -20,7 +20,7 @@ from annotate.commands.options import (
     opened,
     whoever,
 )
-from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say
+from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, tell
 from skyline_viz.commands.settings import OptionalFolder, Switch
 
 if TYPE_CHECKING:
@@ -74,11 +74,11 @@ class Export:
         )
         for note in export.notes:
             say(note, PROGRAM)
-        print(f"{counted(export.written, 'label')} in {out}")
+        tell(f"{counted(export.written, 'label')} in {out}")
         whole = len(every) if self.orphans else len(found.photos)
         if (missing := whole - export.written) > 0:
             what = "label" if self.orphans else "photo"
-            print(f"Not in it: {counted(missing, what)} of the folder.")
+            tell(f"Not in it: {counted(missing, what)} of the folder.")
         return GOOD
 
 
@@ -122,7 +122,7 @@ class Import:
         for log in skipped:
             already = f"has been labelled by {log.annotator} in pass {log.number} already."
             say(f"{names[log.photo]} {already}", PROGRAM)
-        print(f"{counted(len(logs) - len(skipped), 'label')} imported into {self.folder}")
+        tell(f"{counted(len(logs) - len(skipped), 'label')} imported into {self.folder}")
         if skipped:
             say("name another --annotator or --pass-number to keep both.", PROGRAM)
         return SOME_FAILED if skipped else GOOD
@@ -188,5 +188,5 @@ class Backup:
         if out.exists():
             raise UsageError(f"{out} exists already.")
         backup(self.folder, out)
-        print(out)
+        tell(str(out))
         return GOOD

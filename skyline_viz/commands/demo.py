@@ -10,7 +10,7 @@ import tyro
 
 from skyline_viz.commands.gallery import build, show, show_picture
 from skyline_viz.commands.inputs import collect, output_folder
-from skyline_viz.commands.messages import SOME_FAILED, say, status_after
+from skyline_viz.commands.messages import SOME_FAILED, say, status_after, tell
 from skyline_viz.commands.render import write_with_progress
 from skyline_viz.commands.settings import Folder, make_detector
 from skyline_viz.config import DetectorConfig
@@ -52,7 +52,7 @@ class Demo:
             except ViewerError as error:
                 say(f"no picture of the gallery was drawn: {error}")
             shown = " ".join(map(str, self.photos or [self._samples()]))
-            print(f"There is no display here. skyline-viz gallery {shown} --out {self.out} --serve")
+            tell(f"There is no display here. skyline-viz gallery {shown} --out {self.out} --serve")
         return status_after(failures)
 
     def _samples(self) -> Path:

@@ -11,10 +11,11 @@ import tyro
 
 from skyline_viz.batch import Failure, run
 from skyline_viz.commands.inputs import Input, collect, output_folder
-from skyline_viz.commands.messages import UsageError, counted, status_after
+from skyline_viz.commands.messages import UsageError, counted, status_after, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Folder, Preset, Switch, make_detector
 from skyline_viz.config import DetectorConfig
+from skyline_viz.names import columns_of, padded, shortened
 
 if TYPE_CHECKING:
     from skyline_viz.methods.protocol import Method
@@ -65,17 +66,17 @@ class Detect:
         inputs = collect(self.photos)
         detector = self._detector()
         output_folder(self.out, (one.item for one in inputs))
-        wide = max(len(one.name) for one in inputs)
+        wide = max(columns_of(shortened(one.name)) for one in inputs)
         failures = []
         outcomes = run(partial(_detect, self, detector), inputs, workers=self.workers)
         for outcome in outcomes:
             if isinstance(outcome, Failure):
                 failures.append(outcome)
             else:
-                print(outcome.line(wide))
+                tell(outcome.line(wide))
         written = len(inputs) - len(failures)
         if written > 1:
-            print(f"{counted(written, 'skyline')} in {self.out}")
+            tell(f"{counted(written, 'skyline')} in {self.out}")
         return status_after(failures)
 
     def _detector(self) -> Method:
@@ -95,7 +96,7 @@ class _Found:
     def line(self, wide: int) -> str:
         size = f"{self.width}x{self.height}"
         files = " ".join(map(str, self.files))
-        return f"{self.name:<{wide}}  {size:>9}  {self.seconds:6.3f} s  {files}"
+        return f"{padded(shortened(self.name), wide)}  {size:>9}  {self.seconds:6.3f} s  {files}"
 
 
 def _detect(options: Detect, detector: Method, photo: Input) -> _Found:

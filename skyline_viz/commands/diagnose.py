@@ -10,7 +10,7 @@ import tyro
 
 from skyline_viz.batch import Failure, run
 from skyline_viz.commands.inputs import output_folder, with_truth
-from skyline_viz.commands.messages import UsageError, counted, say, status_after
+from skyline_viz.commands.messages import UsageError, counted, say, status_after, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import (
     BankFile,
@@ -132,10 +132,10 @@ class Diagnose:
 
         if self.photo:
             for one in found:
-                print(report.in_full(one))
+                tell(*report.in_full(one).splitlines())
                 if self.out:
                     document, text = report.write_photo(self.out, name, one)
-                    print(f"{document.name} and {text.name} in {document.parent}")
+                    tell(f"{document.name} and {text.name} in {document.parent}")
         else:
             self._tell_all(name, found)
         if not found:
@@ -145,11 +145,11 @@ class Diagnose:
         from skyline_viz import diagnosis_report as report  # noqa: PLC0415
 
         if found:
-            print(f"{name}: {counted(len(found), 'photo')}")
-            print(report.table(found))
+            tell(f"{name}: {counted(len(found), 'photo')}")
+            tell(*report.table(found).splitlines())
             if helps := report.remedies_table(found):
-                print(helps)
+                tell(*helps.splitlines())
         if self.out:
             report.write_csv(self.out / "segments.csv", found)
             report.write_json(self.out / "diagnosis.json", name, found)
-            print(f"segments.csv and diagnosis.json in {self.out}")
+            tell(f"segments.csv and diagnosis.json in {self.out}")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import tyro
 
 from skyline_viz.commands.inputs import output_folder, with_truth
-from skyline_viz.commands.messages import UsageError, counted, say, status_after
+from skyline_viz.commands.messages import UsageError, counted, say, status_after, tell, tell_drawn
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Folder, OptionalFolder, Preset, make_detector
 from skyline_viz.config import DetectorConfig
@@ -88,13 +88,11 @@ class Evaluate:
         if results:
             _print(title, results)
         if self.out:
-            print(f"summary.json, photos.csv and histogram.png in {self.out}")
+            tell(f"summary.json, photos.csv and histogram.png in {self.out}")
         return status_after(failures)
 
     def _compare(self, dataset: Dataset, items: Sequence[DatasetItem]) -> int:
         """Evaluate the methods that were named."""
-        from rich.console import Console  # noqa: PLC0415
-
         from skyline_viz import evaluation_report as report  # noqa: PLC0415
         from skyline_viz.methods.registry import learned_from  # noqa: PLC0415
         from skyline_viz.methods.testing import compare_methods  # noqa: PLC0415
@@ -106,12 +104,9 @@ class Evaluate:
         found = compare_methods(
             items, methods, folds=self.folds, seed=self.seed, workers=self.workers
         )
-        console = Console(highlight=False, width=110)
-        with console.capture() as captured:
-            how = f"{self.folds}-fold cross-validation" if self.folds else "as they are"
-            console.print(f"{dataset.name}: {counted(len(items), 'photo')}, {how}; A_err in px")
-            console.print(report.methods_table(found.results))
-        print(captured.get(), end="")
+        how = f"{self.folds}-fold cross-validation" if self.folds else "as they are"
+        tell(f"{dataset.name}: {counted(len(items), 'photo')}, {how}; A_err in px")
+        tell_drawn(report.methods_table(found.results), width=110)
         if self.out:
             about = {
                 "dataset": dataset.name,
@@ -120,7 +115,7 @@ class Evaluate:
                 "failed": [asdict(failure) for failure in found.failures],
             }
             report.write_comparison(self.out, found.results, about)
-            print(f"methods.json and methods.csv in {self.out}")
+            tell(f"methods.json and methods.csv in {self.out}")
         return status_after(found.failures)
 
     def _write(
@@ -141,7 +136,7 @@ class Evaluate:
             **about,
             "config": asdict(self.config),
             "failed": [asdict(failure) for failure in failures],
-            "problems": list(dataset.problems),
+            "problems": [*dataset.problems, *dataset.left_out],
         }
         report.write_summary(self.out / "summary.json", Summary.of(results), about)
         report.write_results(self.out / "photos.csv", results)
@@ -149,14 +144,8 @@ class Evaluate:
 
 
 def _print(title: str, results: list[PhotoResult]) -> None:
-    from rich.console import Console  # noqa: PLC0415
-
     from skyline_viz.evaluation_report import summary_table, worst_table  # noqa: PLC0415
     from skyline_viz.results import Summary, worst  # noqa: PLC0415
 
-    console = Console(highlight=False)
-    with console.capture() as captured:  # printed here, it would end the program on | head
-        console.print(title, soft_wrap=True)
-        console.print(summary_table(Summary.of(results)))
-        console.print(worst_table(worst(results)))
-    print(captured.get(), end="")
+    tell(title)
+    tell_drawn(summary_table(Summary.of(results)), worst_table(worst(results)))

@@ -15,7 +15,16 @@ import tyro
 from skyline_viz.batch import Failure
 from skyline_viz.causes import Cause
 from skyline_viz.commands.inputs import Input, collect, output_folder
-from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, status_after
+from skyline_viz.commands.messages import (
+    GOOD,
+    SOME_FAILED,
+    UsageError,
+    counted,
+    say,
+    status_after,
+    tell,
+    tell_row,
+)
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import (
     BankFile,
@@ -133,7 +142,7 @@ def build(
             failures.append(outcome)
         else:
             entries.append(outcome)
-    print(f"{counted(len(entries), 'photo')} in {out}")
+    tell(f"{counted(len(entries), 'photo')} in {out}")
     return by_need(entries), failures
 
 
@@ -153,12 +162,12 @@ def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: Cause | No
             viewer = open_viewer([gallery.address], port)
             around.callback(viewer.terminate)
             around.enter_context(ended_edits(port, lambda: gallery.reviewed))
-            print("Enter ends a comment. A moment later all is on disk.", flush=True)
+            tell("Enter ends a comment. A moment later all is on disk.")
         else:
             if window:
                 say("there is no display to open the viewer on; --screenshot FILE.png needs none.")
-            print(f"Look at it with: rerun {gallery.address}")
-            print("Ctrl-C ends.", flush=True)
+            tell(f"Look at it with: rerun {gallery.address}")
+            tell("Ctrl-C ends.")
         while not stop.wait(LOOK_EVERY) and (viewer is None or viewer.poll() is None):
             gallery.save_edits()
 
@@ -171,7 +180,7 @@ def show_picture(
 
     with _served(out, entries, cause) as gallery:
         save_picture(gallery.address, path, PICTURE)
-    print(path)
+    tell(str(path))
 
 
 def list_flags(out: Path) -> int:
@@ -182,7 +191,7 @@ def list_flags(out: Path) -> int:
         raise UsageError(f"{out} is no gallery; --out names its folder.")
     for name, flag in Gallery(out).flags().items():
         comment = " ".join(flag.comment.split())
-        print(f"{name}\t{int(flag.reviewed)}\t{comment}")
+        tell_row(name, str(int(flag.reviewed)), comment)
     return GOOD
 
 

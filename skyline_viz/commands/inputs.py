@@ -6,10 +6,14 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
-from skyline_viz.commands.messages import UsageError, listed, say
+from skyline_viz.commands.messages import UsageError, counted, listed, say, say_last
 from skyline_viz.datasets import Dataset, DatasetItem, open_dataset
+from skyline_viz.names import shortened
 
 _TRUTH_FOLDERS = ("masks", "ground_truth")
+
+_LONGEST = 255 - len("-overlay.jpg")
+"""Bytes of an output's name, without the longest ending that we put to it."""
 
 
 @dataclass(frozen=True)
@@ -32,18 +36,26 @@ def collect(paths: Sequence[Path]) -> list[Input]:
         DatasetError: A folder holds no photo, or several data sets.
     """
     found: dict[Path, DatasetItem] = {}
+    again: list[str] = []
     for path in paths:
         items: Iterable[DatasetItem] = [DatasetItem(path.stem, path)]
         if path.is_dir():
             items = dataset = open_dataset(path)
-            for problem in dataset.problems:
-                say(f"{dataset.name}: {problem}")
+            _tell(dataset)
         for item in items:
-            found.setdefault(item.photo_path.resolve(), item)
+            first = found.setdefault(item.photo_path.resolve(), item).photo_path
+            if first.absolute() != item.photo_path.absolute():
+                again.append(item.photo_path.name)
+    if again:
+        links = "is another name of a photo" if len(again) == 1 else "are other names of photos"
+        say(f"{counted(len(again), 'file')} {links} that is done already: {listed(again)}.")
     items = list(found.values())
     plain = [_plain_name(item) for item in items]
     names = output_names(items)
-    if renamed := [name for name, stem in zip(names, plain, strict=True) if name != stem]:
+    pairs = list(zip(names, plain, strict=True))
+    if long := [name for name, stem in pairs if name != stem and not _fits(stem)]:
+        say(f"names too long for those of outputs are cut: {listed([*map(shortened, long)])}.")
+    if renamed := [name for name, stem in pairs if name != stem and _fits(stem)]:
         say(f"photos of the same name are told apart in the names of outputs: {listed(renamed)}.")
     return [Input(name, item) for name, item in zip(names, items, strict=True)]
 
@@ -53,14 +65,14 @@ def output_names(items: Sequence[DatasetItem]) -> list[str]:
 
     Names that differ in upper and lower case only clash, because on some disks their files do.
     """
-    names = [_plain_name(item) for item in items]
+    names = [_fitting(_plain_name(item)) for item in items]
     longer: tuple[Callable[[DatasetItem], str], ...] = (
         lambda item: item.name.replace("/", "-"),
         lambda item: item.photo_path.name,
     )
     for longer_name in longer:
         for clash in _clashes(names):
-            others = [longer_name(items[index]) for index in clash]
+            others = [_fitting(longer_name(items[index])) for index in clash]
             if not _clashes(others):
                 for index, name in zip(clash, others, strict=True):
                     names[index] = name
@@ -70,6 +82,15 @@ def output_names(items: Sequence[DatasetItem]) -> list[str]:
             free = (f"{names[index]}-{more}" for more in count(number))
             names[index] = next(name for name in free if name.casefold() not in taken)
     return names
+
+
+def _fits(name: str) -> bool:
+    return len(os.fsencode(name)) <= _LONGEST
+
+
+def _fitting(name: str) -> str:
+    """A name, cut where no file system would take it with an ending."""
+    return name if _fits(name) else os.fsdecode(os.fsencode(name)[: _LONGEST - 4]) + "-cut"
 
 
 def _clashes(names: Sequence[str]) -> list[list[int]]:
@@ -86,8 +107,7 @@ def with_truth(dataset: Dataset) -> list[DatasetItem]:
     Raises:
         UsageError: No photo has a truth.
     """
-    for problem in dataset.problems:
-        say(f"{dataset.name}: {problem}")
+    _tell(dataset)
     usable = [item for item in dataset if item.truth_path]
     if not usable:
         raise UsageError(f"{dataset.name} holds no truth for any of its {len(dataset)} photos.")
@@ -120,6 +140,14 @@ def output_folder(out: Path, items: Iterable[DatasetItem]) -> Path:
     if not os.access(out, os.W_OK | os.X_OK):
         raise UsageError(f"the folder {out} may not be written to.")
     return out
+
+
+def _tell(dataset: Dataset) -> None:
+    """Say what is wrong with a data set, and at the very end what was not taken."""
+    for problem in dataset.problems:
+        say(f"{dataset.name}: {problem}")
+    for sentence in dataset.left_out:
+        say_last(f"{dataset.name}: {sentence}")
 
 
 def _plain_name(item: DatasetItem) -> str:

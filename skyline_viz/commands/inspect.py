@@ -13,7 +13,7 @@ import tyro
 
 from skyline_viz.batch import Failure, sentence
 from skyline_viz.commands.inputs import Input, collect, with_truth
-from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, status_after
+from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, status_after, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import (
     BankFile,
@@ -174,6 +174,7 @@ class Inspect:
         failures: list[Failure],
     ) -> list[Path]:
         """Write the recordings, and return their files."""
+        from skyline_viz.names import recording_id  # noqa: PLC0415
         from skyline_viz.photo import PhotoError  # noqa: PLC0415
         from skyline_viz.recording import new_recording  # noqa: PLC0415
 
@@ -184,7 +185,7 @@ class Inspect:
             for group in groups:
                 name = group[0].name if len(group) == 1 else self.photos[0].resolve().name
                 together = self.save if not self.split else None
-                file = together or folder / f"{name}.rrd"
+                file = together or folder / f"{recording_id(name)}.rrd"
                 with suppress(_Nothing), new_recording(file, name) as recording:
                     contents = None
                     for step, one in enumerate(group):
@@ -235,9 +236,9 @@ class Inspect:
         if sweeps:
             _log_sweeps(recording, sweeps, found, truth)
         error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
-        print(f"{one.name}{error}  margin {verdict.margin:.3g}")
+        tell(f"{one.name}{error}  margin {verdict.margin:.3g}")
         if diagnosis and diagnosis.right:
-            print(diagnosis.said_right)
+            tell(*diagnosis.said_right.splitlines())
         height, width = found.edges.shape
         return Contents(
             height,
@@ -289,19 +290,19 @@ class Inspect:
         from skyline_viz import viewer  # noqa: PLC0415
 
         if self.headless:
-            print(f"{counted(len(files), 'recording')} made.")
+            tell(f"{counted(len(files), 'recording')} made.")
         elif self.save:
-            print(f"Look at it with: rerun {self.save}")
+            tell(f"Look at it with: rerun {self.save}")
         elif self.screenshot:
             for file in files:
                 several = f"-{file.stem}" if len(files) > 1 else ""
                 for picture in viewer.save_pictures(file, self.screenshot, several):
-                    print(picture)
+                    tell(str(picture))
         elif self.connect:
             viewer.send(files, self.connect)
         elif self.serve:
             process, address = viewer.serve(files)
-            print(f"Open {address} in a browser. Ctrl-C ends.", flush=True)
+            tell(f"Open {address} in a browser. Ctrl-C ends.")
             viewer.wait_for(process)
         else:
             viewer.wait_for(viewer.open_viewer(files))
@@ -373,7 +374,7 @@ def _begin_sweeps(
     if sizes:
         sweeps.append(size_sweep(found, sizes))
     else:
-        print("The filter size is not swept: name a data set to train on with --sweep-training.")
+        tell("The filter size is not swept: name a data set to train on with --sweep-training.")
     for sweep in sweeps:
         recording.set_time(sweep.timeline, sequence=sweep.steps[0].at)
     return sweeps

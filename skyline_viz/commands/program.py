@@ -23,7 +23,10 @@ from skyline_viz.commands.messages import (
     SOME_FAILED,
     USAGE,
     say,
+    say_what_is_left,
+    tell,
 )
+from skyline_viz.notes import heard_by, once
 
 
 class Command(Protocol):
@@ -44,7 +47,8 @@ def run_program(
         arguments: These words; those of this process unless given.
     """
     try:
-        status = _run(program, parse, sys.argv[1:] if arguments is None else list(arguments))
+        with heard_by(once(lambda note: say(note, program))):
+            status = _run(program, parse, sys.argv[1:] if arguments is None else list(arguments))
         sys.stdout.flush()
     except KeyboardInterrupt:
         say("interrupted; every file that was written is whole.", program)
@@ -58,6 +62,8 @@ def run_program(
         text = sentence(error)
         say(text if text.endswith((".", "?", "!")) else f"{text}.", program)
         return known
+    finally:
+        say_what_is_left()
     return status
 
 
@@ -90,7 +96,7 @@ def parsed(program: str, about: str, commands: Any, arguments: Sequence[str]) ->
 
 def _run(program: str, parse: Callable[[list[str]], Command], arguments: list[str]) -> int:
     if arguments == ["--version"]:
-        print(f"{program} {__version__}")
+        tell(f"{program} {__version__}")
         return GOOD
     try:
         command = parse(arguments)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import tyro
 
 from skyline_viz.commands.inputs import output_folder
-from skyline_viz.commands.messages import GOOD, UsageError, counted
+from skyline_viz.commands.messages import GOOD, UsageError, counted, tell
 from skyline_viz.commands.settings import Folder
 from skyline_viz.progress import ProgressBar
 
@@ -59,9 +59,9 @@ class Render:
         total = len(SAMPLES) if kind is None else self.count
         count = 0
         for path in write_with_progress(scenes, self.out, total):
-            print(path)
+            tell(str(path))
             count += 1
-        print(f"{counted(count, 'scene')} in {self.out}")
+        tell(f"{counted(count, 'scene')} in {self.out}")
         return GOOD
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, get_args
 import tyro
 
 from skyline_viz.commands.inputs import output_folder, with_truth
-from skyline_viz.commands.messages import SOME_FAILED, UsageError, say, status_after
+from skyline_viz.commands.messages import SOME_FAILED, UsageError, say, status_after, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import Folder, Switch
 from skyline_viz.methods.names import MethodName
@@ -135,5 +135,5 @@ class Tables:
         page = markdown(tables)
         write_text(self.out / "tables.md", page)
         write_text(self.out / "tables.tex", latex(tables))
-        print(page)
-        print(f"tables.md, tables.tex, methods.csv and histograms in {self.out}")
+        tell(*page.splitlines())
+        tell(f"tables.md, tables.tex, methods.csv and histograms in {self.out}")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import tyro
 
 from skyline_viz.commands.inputs import output_folder, with_truth
-from skyline_viz.commands.messages import GOOD, UsageError, counted, status_after
+from skyline_viz.commands.messages import GOOD, UsageError, counted, status_after, tell
 from skyline_viz.commands.settings import Folder, Preset
 from skyline_viz.config import TrainingConfig
 from skyline_viz.methods.names import MethodName
@@ -76,11 +76,11 @@ class Train:
             items, self.training, seed=self.seed, dataset=dataset.name, workers=self.workers
         )
         bank.save(self.out)
-        print(f"photos used   {bank.provenance.images} of {len(dataset)} in {dataset.name}")
-        print(f"samples       {bank.samples.sum():,}, flipped ones included")
-        print(f"starved bins  {bank.starved.sum()} of {counted(bank.bins.count, 'bin')}")
-        print(f"filters       {bank.size} x {bank.size} pixels")
-        print(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
+        tell(f"photos used   {bank.provenance.images} of {len(dataset)} in {dataset.name}")
+        tell(f"samples       {bank.samples.sum():,}, flipped ones included")
+        tell(f"starved bins  {bank.starved.sum()} of {counted(bank.bins.count, 'bin')}")
+        tell(f"filters       {bank.size} x {bank.size} pixels")
+        tell(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
 
     def _pretrained(self, method: LearnedMethod) -> LearnedMethod:
@@ -103,6 +103,6 @@ class Train:
             method = self._pretrained(method)
         fitted = method.fit(items, self.seed)
         save_method(fitted, self.out, Trained(dataset, len(items), self.seed))
-        print(f"{self.method}, trained on {counted(len(items), 'photo')} of {dataset}")
-        print(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
+        tell(f"{self.method}, trained on {counted(len(items), 'photo')} of {dataset}")
+        tell(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
         return GOOD
