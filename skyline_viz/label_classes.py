@@ -86,9 +86,10 @@ class Classes:
         ]
         if (more := len(self.found) - len(order)) > 0:
             parts.append(f"{more} more")
-        return f"the {self.kind} {' and '.join([', '.join(parts[:-1]), parts[-1]])}" * (
-            len(parts) > 1
-        ) or f"nothing but {parts[0]}"
+        return (
+            f"the {self.kind} {' and '.join([', '.join(parts[:-1]), parts[-1]])}" * (len(parts) > 1)
+            or f"nothing but {parts[0]}"
+        )
 
     def region(self, values: str) -> Bool:
         """Where the classes lie that `values` names, separated by commas.
@@ -150,10 +151,7 @@ def _levels(grey: npt.NDArray[Any], counts: dict[Any, int] | None) -> Classes:
     Raises:
         SkylineError: There are many levels, and all are dark, or all are bright.
     """
-    if counts is None:
-        values = np.unique(grey)
-    else:
-        values = np.array(sorted(counts))
+    values = np.unique(grey) if counts is None else np.array(sorted(counts))
     low, high = values[0].item(), values[-1].item()
     cut = _cut(grey.dtype, high)
     plain = len(values) <= 2

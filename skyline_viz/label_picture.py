@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
@@ -49,7 +48,7 @@ class LabelPicture:
         """Grey levels ``(H, W)``; None where there is colour. A tint, as JPEG leaves, is none."""
         if self.palette is not None:
             used = self.palette[list(self.counts or range(len(self.palette)))]
-            return self.palette[:, 1][self.values] if _colourless(used) else None
+            return np.asarray(self.palette[:, 1][self.values]) if _colourless(used) else None
         if self.values.ndim == 2:
             return self.values
         colours = self.values if self.counts is None else np.array(list(self.counts), np.uint8)
@@ -59,7 +58,7 @@ class LabelPicture:
     def colours(self) -> U8:
         """The picture as a viewer shows it, ``(H, W, 3)``, for values of 8 bits."""
         if self.palette is not None:
-            return self.palette[self.values]
+            return np.asarray(self.palette[self.values])
         if self.values.ndim == 3:
             return self.values
         return np.repeat(self.values.astype(np.uint8)[:, :, None], 3, axis=2)
@@ -124,6 +123,8 @@ def _of_indices(image: Image.Image, opaque: Bool | None) -> LabelPicture:
 
 def _of_16_bits(path: Path, turn: Image.Transpose | None) -> LabelPicture:
     """Colours, or grey with alpha, of 16 bits: Pillow would keep their high bytes alone."""
+    import cv2  # noqa: PLC0415  # not needed for help
+
     if turn is not None:
         raise PhotoError(f"{path} has 16 bits a colour and is stored turned; save it upright.")
     deep = cv2.imdecode(np.fromfile(path, np.uint8), cv2.IMREAD_UNCHANGED)

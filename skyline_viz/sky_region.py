@@ -137,7 +137,7 @@ def _strip(region: Bool, limit: int) -> int:
 
 def _sides(inner: Bool, limit: int) -> Bool:
     """Columns at the left and right that are terrain from top to bottom, as of a frame."""
-    full = ~inner.any(axis=0)
+    full: Bool = np.asarray(~inner.any(axis=0))
     sides = np.zeros(len(full), np.bool_)
     for columns in (slice(None), slice(None, None, -1)):
         width = int(np.argmin(np.append(full[columns], False)))

@@ -133,11 +133,11 @@ def _upper(classes: Classes) -> Bool:
     Raises:
         SkylineError: None is, or several are.
     """
-    dark = classes.regions == 0
+    dark: Bool = np.asarray(classes.regions == 0)
     usual = classes.kind == "grey levels" and classes.found[0].is_meant_by("0")
     if len(classes.found) == 1:
         if usual or classes.found[0].is_meant_by("255"):
-            return dark if usual else ~dark
+            return dark if usual else np.asarray(~dark)
         raise _AskError(f"holds {_asking(classes)}")
     if len(classes.found) > 2:
         raise _AskError(f"holds {_asking(classes)}")
@@ -145,7 +145,7 @@ def _upper(classes: Classes) -> Bool:
     if lower.possible and (usual or not lower.thin):
         return dark
     if upper.possible and not upper.thin:
-        return ~dark
+        return np.asarray(~dark)
     raise SkylineError(
         f"it is neither painted nor a mask with sky above terrain; it holds {_asking(classes)}"
     )

@@ -7,9 +7,8 @@ from itertools import count
 from pathlib import Path
 
 from skyline_viz.commands.messages import UsageError, listed, say
-from skyline_viz.datasets import Dataset, DatasetItem, open_dataset
-
-_TRUTH_FOLDERS = ("masks", "ground_truth")
+from skyline_viz.commands.truth_options import Truths
+from skyline_viz.datasets import TRUTH_FOLDERS, Dataset, DatasetItem, truth_names
 
 
 @dataclass(frozen=True)
@@ -23,10 +22,14 @@ class Input:
     """The photo, and its truth where there is one."""
 
 
-def collect(paths: Sequence[Path]) -> list[Input]:
+def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[Input]:
     """Photos of a command line: files as they are, folders as data sets; each file once.
 
     A file that does not exist is an input, too: it fails when its turn comes.
+
+    Args:
+        paths: Files and folders.
+        truths: How to read the truths of data sets.
 
     Raises:
         DatasetError: A folder holds no photo, or several data sets.
@@ -35,7 +38,7 @@ def collect(paths: Sequence[Path]) -> list[Input]:
     for path in paths:
         items: Iterable[DatasetItem] = [DatasetItem(path.stem, path)]
         if path.is_dir():
-            items = dataset = open_dataset(path)
+            items = dataset = (truths or Truths()).open(path)
             for problem in dataset.problems:
                 say(f"{dataset.name}: {problem}")
         for item in items:
@@ -90,7 +93,10 @@ def with_truth(dataset: Dataset) -> list[DatasetItem]:
         say(f"{dataset.name}: {problem}")
     usable = [item for item in dataset if item.truth_path]
     if not usable:
-        raise UsageError(f"{dataset.name} holds no truth for any of its {len(dataset)} photos.")
+        raise UsageError(
+            f"{dataset.name} holds no truth for any of its {len(dataset)} photos; "
+            f"one is found as {truth_names(dataset.items[0])}."
+        )
     if without := [item.name for item in dataset if not item.truth_path]:
         say(f"left out, because there is no truth: {listed(without)}.")
     return usable
@@ -106,7 +112,7 @@ def output_folder(out: Path, items: Iterable[DatasetItem]) -> Path:
     target = out.resolve()
     for place in {item.photo_path.resolve().parent for item in items}:
         homes = [place, place.parent] if place.name.lower() == "images" else [place]
-        truths = target.name.lower() in _TRUTH_FOLDERS and target.parent in homes
+        truths = target.name.lower() in TRUTH_FOLDERS and target.parent in homes
         if target == place or truths:
             raise UsageError(
                 f"files written into {out} would be taken for the truth of the photos in {place}; "
