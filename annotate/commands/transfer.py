@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -22,6 +22,7 @@ from annotate.commands.options import (
 )
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say
 from skyline_viz.commands.settings import OptionalFolder
+from skyline_viz.commands.truth_options import TruthOptions, Truths
 
 if TYPE_CHECKING:
     from annotate.formats import Imported
@@ -90,6 +91,12 @@ class Import:
     status: Literal["needs review", "accepted"] = "needs review"
     """Status of labels whose format does not carry one."""
 
+    label: Annotated[str | None, tyro.conf.arg(metavar="NAME")] = None
+    """What skylines, or regions of sky, are called in it; skyline, horizon and sky unless given."""
+
+    truths: TruthOptions = field(default_factory=Truths)
+    """Which value of a mask, or which label of a region, is sky or terrain."""
+
     def run(self) -> int:
         """Import; return the exit status."""
         from annotate.formats import import_labels  # noqa: PLC0415
@@ -102,7 +109,15 @@ class Import:
             photos = {photo.name: photo for photo in store.find()}
             if not photos:
                 raise UsageError(f"{self.folder} holds no photograph.")
-            found = import_labels(self.source, self.folder, photos, self.format)
+            found = import_labels(
+                self.source,
+                self.folder,
+                photos,
+                self.format,
+                label=self.label,
+                sky=self.truths.sky,
+                terrain=self.truths.terrain,
+            )
             for one in found:
                 told = one.label
                 who = self.annotator or (told.annotator if told else "") or whoever("")
@@ -115,10 +130,12 @@ class Import:
                     say(f"{one.name} has been labelled by {who} in pass {number} already.", PROGRAM)
         finally:
             store.close()
+        for sentence in (*found.problems, *found.notes):
+            say(sentence, PROGRAM)
         print(f"{counted(len(found) - skipped, 'label')} imported into {self.folder}")
         if skipped:
             say("name another --annotator or --pass-number to keep both.", PROGRAM)
-        return SOME_FAILED if skipped else GOOD
+        return SOME_FAILED if skipped or found.problems else GOOD
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,11 @@ from typing import Any
 import numpy as np
 
 from annotate.formats.common import Entry, FormatError, Imported, check_size
+from annotate.formats.importing import Task
 from annotate.labels import ORIGINS, Label
 from skyline_viz.files import write_text
-from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.skyline import Skyline
+from skyline_viz.truths import begins_like_a_skyline, read_truth
 
 _FORMAT, _VERSION = "skyline-labels", 1
 
@@ -23,19 +25,16 @@ def write_csv(entries: list[Entry], folder: Path) -> None:
         entry.skyline.write_csv(folder / f"{entry.stem}.csv")
 
 
-def read_csv(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
-    """Read the CSV files of a folder, or one of them."""
-    files = [source] if source.is_file() else sorted(source.glob("*.csv"))
-    found = []
-    for file in files:
-        if file.stem in names:
-            try:
-                skyline = Skyline.read_csv(file)
-            except SkylineError as error:
-                raise FormatError(str(error)) from error
-            name = names[file.stem]
-            found.append(Imported(name, check_size(name, skyline, photos)))
-    return found
+def read_csv(task: Task) -> None:
+    """Read the skylines of a folder, in CSV or JSON, or one of them."""
+    files = [
+        file
+        for file in task.files
+        if file.suffix.lower() == ".csv"
+        or (file.suffix.lower() == ".json" and begins_like_a_skyline(file))
+    ]
+    files.sort(key=lambda file: file.suffix.lower())  # of both, CSV counts
+    task.read_each(files or task.files, lambda file, _: read_truth(file))
 
 
 def write_json(entries: list[Entry], folder: Path) -> None:
@@ -55,7 +54,7 @@ def write_json(entries: list[Entry], folder: Path) -> None:
 
 
 def read_json(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
-    """Read what `write_json` wrote."""
+    """Read what `write_json` wrote, given the photo of each name."""
     file = source / "labels.json" if source.is_dir() else source
     document = load_json(file)
     if document.get("format") != _FORMAT or not isinstance(document.get("labels"), list):
@@ -88,18 +87,6 @@ def load_json(file: Path) -> dict[str, Any]:
     if not isinstance(document, dict):
         raise FormatError(f"{file} does not hold a JSON object.")
     return document
-
-
-def kind_of_json(file: Path) -> str:
-    """The format of a JSON file."""
-    document = load_json(file)
-    if document.get("format") == _FORMAT:
-        return "json"
-    if "annotations" in document and "images" in document:
-        return "coco"
-    if "shapes" in document:
-        return "labelme"
-    raise FormatError(f"{file} is JSON, but of no known format.")
 
 
 def _label(said: dict[str, Any]) -> Label:
