@@ -19,6 +19,9 @@ from skyline_viz.skyline import SkylineError
 _MOST = 64
 """A label picture with more classes than that is a photograph."""
 
+_SAME = 16
+"""Largest difference of a channel that JPEG makes within a region."""
+
 _NEAR = 40
 """Largest difference of a channel between a colour and the class that it belongs to."""
 
@@ -120,7 +123,7 @@ def classes_of(picture: LabelPicture) -> Classes | None:
             classes = _levels(grey, None)
         if classes is None or not classes.soft:
             classes = _indices(picture)
-    elif grey is not None:
+    elif grey is not None and not (few and picture.values.ndim == 3 and not _is_grey(picture)):
         direct = grey is picture.values
         classes = _levels(grey, picture.counts if direct else None)
     else:
@@ -162,7 +165,9 @@ def _levels(grey: npt.NDArray[Any], counts: dict[Any, int] | None) -> Classes:
                 f"and in a mask terrain is 255 and sky 0"
             )
         plain = True
-    if not plain and cut is not None and not _has_plateau(grey, cut):
+    if not plain and cut is not None and not _has_plateau(grey, values):
+        if not _is_soft_mask(grey):
+            raise SkylineError("it is grey, and neither painted nor a mask of few levels")
         found = (_between(low, cut, cut), _between(cut, high, cut))
         return Classes((grey >= cut).astype(np.uint8), found, "grey levels", soft=True)
     if len(values) > _MOST:
@@ -186,19 +191,39 @@ def _cut(kind: np.dtype[Any], high: float) -> float | None:
     return 32768 if high >= 32768 and kind.kind != "f" else None
 
 
-def _has_plateau(grey: npt.NDArray[Any], cut: float) -> bool:
-    """Whether a grey between dark and bright fills a region, as a third class does.
+def _has_plateau(grey: npt.NDArray[Any], values: npt.NDArray[Any]) -> bool:
+    """Whether a grey between the darkest and the brightest fills a region, as a third class does.
 
     A soft edge goes through all of them alike, and through each in a few rows.
     """
-    steps = np.clip(grey.astype(np.float32) * np.float32(8 / cut), 0, 15).astype(np.uint8)
+    low, high = float(values[0]), float(values[-1])
+    if len(values) <= _MOST:
+        numbers = np.searchsorted(values, grey)
+        shares = np.bincount(numbers.ravel())[1:-1] / numbers.size
+        if _is_region(numbers == 1 + np.argmax(shares)):
+            return True
+    steps = np.clip((grey.astype(np.float32) - low) * (16 / (high - low)), 0, 15).astype(np.uint8)
     shares = np.bincount(steps.ravel(), minlength=16)[1:15] / steps.size
-    step = int(np.argmax(shares)) + 1
-    if shares[step - 1] < 0.02 or shares[step - 1] < 5 * np.median(shares):
-        return False
-    inside = steps == step
+    return bool(shares.max() > 5 * np.median(shares)) and _is_region(steps == 1 + shares.argmax())
+
+
+def _is_region(inside: Bool) -> bool:
+    """Whether pixels are more than those of an edge."""
     runs = inside[:-3] & inside[1:-2] & inside[2:-1] & inside[3:]
-    return bool(runs.sum() > 0.5 * inside.sum())
+    return bool(inside.mean() >= 0.02 and runs.sum() > 0.5 * inside.sum())
+
+
+def _is_soft_mask(grey: npt.NDArray[Any]) -> bool:
+    """Whether most pixels are as dark or as bright as any, and not of all greys as in a photo."""
+    sample = grey[:: max(1, len(grey) // 500)].astype(np.float32)
+    low, high = np.percentile(sample, [1, 99])
+    near = max(0.08 * float(high - low), 1e-6)
+    return bool(((sample <= low + near) | (sample >= high - near)).mean() > 0.6)
+
+
+def _is_grey(picture: LabelPicture) -> bool:
+    """Whether the few colours of a picture are greys."""
+    return all(len(set(colour)) == 1 for colour in picture.counts or ())
 
 
 def _indices(picture: LabelPicture) -> Classes:
@@ -235,8 +260,8 @@ def _colours(picture: LabelPicture) -> Classes | None:
         places = np.searchsorted(keys, colours.astype(np.int32) @ np.array([65536, 256, 1]))
         regions = number[places]
     else:
-        regions, apart = _quantised(colours, centres)
-        if apart > 0.03:
+        regions, near = _quantised(colours, centres)
+        if near < 0.85:
             return None
     exact = len(picture.counts or ()) == len(centres)
     present = np.unique(regions)
@@ -254,9 +279,28 @@ def _few(picture: LabelPicture) -> npt.NDArray[np.int64] | None:
     main = [one for one, count in counts.items() if count >= 0.005 * total]
     if len(counts) <= 2 or not main:
         main = list(counts)
+    elif 2 < len(main) <= _MOST:
+        main = [one for one in main if not _is_mixed(one, main, picture)]
     if len(main) > _MOST or sum(counts[one] for one in main) < 0.9 * total:
         return None
     return np.array(sorted(main), np.int64)
+
+
+def _is_mixed(
+    colour: tuple[int, int, int], main: list[tuple[int, int, int]], picture: LabelPicture
+) -> bool:
+    """Whether a colour is that of an edge: a blend of two others, and nowhere a region."""
+    told = np.array(main, np.float64)
+    sums = {one: (picture.counts or {})[one] for one in main}
+    larger = told[[sums[one] > 2 * sums[colour] for one in main]]
+    for place, first in enumerate(larger):
+        for second in larger[place + 1 :]:
+            along = second - first
+            share = float((np.array(colour) - first) @ along / (along @ along))
+            off = np.abs(first + share * along - colour).max()
+            if 0 < share < 1 and off <= 4:
+                return not _is_region((picture.values == np.array(colour)).all(axis=2))
+    return False
 
 
 def _clusters(colours: U8) -> npt.NDArray[np.int64] | None:
@@ -274,12 +318,15 @@ def _clusters(colours: U8) -> npt.NDArray[np.int64] | None:
 
 
 def _quantised(colours: U8, centres: npt.NDArray[np.int64]) -> tuple[U8, float]:
-    """The nearest centre of each pixel, and the share of pixels that are near to none."""
+    """The nearest centre of each pixel, and the share of pixels that are of its colour.
+
+    In a mask that was saved as JPEG these are nearly all; in a photo they are few.
+    """
     steps = np.arange(32) * 8 + 4
     grid = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
     number, apart = _nearest(grid, centres)
     cells = _cells(colours, 5)
-    return number.astype(np.uint8)[cells], float((apart > _NEAR)[cells].mean())
+    return number.astype(np.uint8)[cells], float((apart <= _SAME)[cells].mean())
 
 
 def _cells(colours: U8, bits: int) -> npt.NDArray[np.int32]:

@@ -52,6 +52,8 @@ class LabelPicture:
         if self.values.ndim == 2:
             return self.values
         colours = self.values if self.counts is None else np.array(list(self.counts), np.uint8)
+        if self.counts is not None and len(set(colours[:, 1].tolist())) < len(colours):
+            return None  # a difference would be lost
         return self.values[:, :, 1] if _colourless(colours) else None
 
     @property

@@ -86,9 +86,10 @@ def line_of(sky: Bool) -> Line:
         if (line_mask != cleaned).mean() > _MISFIT:
             raise SkylineError("it is neither painted nor a mask with sky above terrain")
     rows, visible = skyline.rows + np.float32(frame.start), skyline.visible
-    if frame.start:
+    if thick := max(frame.start, len(sky) - frame.stop):
         visible = visible & ~_sides(inner, _frame_limit(sky.shape[1]))
-        notes.append(f"a frame of {frame.start} pixels at the top was left out")
+        pixels = "1 pixel" if thick == 1 else f"{thick} pixels"
+        notes.append(f"a frame of {pixels} was left out")
     if not visible.any():
         raise SkylineError("no column holds both sky and terrain")
     return Line(Skyline(fill(rows, visible) if not visible.all() else rows, visible), tuple(notes))
@@ -136,8 +137,8 @@ def _strip(region: Bool, limit: int) -> int:
 
 
 def _sides(inner: Bool, limit: int) -> Bool:
-    """Columns at the left and right that are terrain from top to bottom, as of a frame."""
-    full: Bool = np.asarray(~inner.any(axis=0))
+    """Columns at the left and right that are of one value from top to bottom, as of a frame."""
+    full: Bool = np.asarray(inner.all(axis=0) | ~inner.any(axis=0))
     sides = np.zeros(len(full), np.bool_)
     for columns in (slice(None), slice(None, None, -1)):
         width = int(np.argmin(np.append(full[columns], False)))

@@ -107,7 +107,7 @@ class Task:
         for file in files:
             first = of_stem.setdefault(file.stem, file)
             if first is not file:
-                self.found.note(f"not used, because another file is called {file.stem}", file.name)
+                self.found.note("not used, because another file for the same photo is", file.name)
         matched = self.names.of_stems(of_stem)
         for sentence in matched.unclear:
             self.found.problem(sentence)

@@ -7,13 +7,14 @@ case. A name is matched where only one photo can be meant, and only one name can
 from __future__ import annotations
 
 import unicodedata
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 
 from annotate.formats.common import safe_stems
-from skyline_viz.datasets import bare_stem
+from skyline_viz.commands.inputs import output_names
+from skyline_viz.datasets import DatasetItem, bare_stem
 
 
 @dataclass(frozen=True)
@@ -43,15 +44,20 @@ class PhotoNames:
         self.names = sorted(set(names))
         self._known = frozenset(self.names)
         safe = safe_stems({*self.names, *below})
-        self._whole: defaultdict[str, set[str]] = defaultdict(set)
-        self._stems: defaultdict[str, set[str]] = defaultdict(set)
+        self._spelled: tuple[defaultdict[str, set[str]], ...] = (
+            defaultdict(set),  # the names
+            defaultdict(set),  # what ``skyline-viz detect`` calls the outputs of the folder
+            defaultdict(set),  # what files of a photo are called by us
+            defaultdict(set),  # the same without folders
+        )
         self._last: defaultdict[str, set[str]] = defaultdict(set)
+        outputs = _outputs(self.names)
         for name in self.names:
             path = PurePosixPath(name)
             plain = name[: len(name) - len(path.suffix)]
-            joined = {plain.replace("/", "-"), name.replace("/", "-")}
-            stems = {safe[name], plain, path.stem, path.name, *joined}
-            for known, spelled in ((self._whole, {name}), (self._stems, stems)):
+            ours = {safe[name], plain, plain.replace("/", "-"), name.replace("/", "-")}
+            ways = ({name}, outputs.get(name, set()), ours, {path.stem, path.name})
+            for known, spelled in zip(self._spelled, ways, strict=True):
                 for one in spelled:
                     known[one].add(name)
                     known[f"/{_folded(one)}"].add(name)  # no file name has this slash
@@ -68,9 +74,9 @@ class PhotoNames:
     def _of_stem(self, stem: str) -> tuple[int, set[str]]:
         spellings = [stem, f"/{_folded(stem)}", bare_stem(stem), f"/{_folded(bare_stem(stem))}"]
         for rank, spelled in enumerate(spellings):
-            for step, known in enumerate((self._whole, self._stems)):
+            for step, known in enumerate(self._spelled):
                 if found := known.get(spelled):
-                    return 2 * rank + step, found
+                    return 4 * rank + step, found
         return 0, set()
 
     def _of_reference(self, reference: str) -> tuple[int, set[str]]:
@@ -81,6 +87,19 @@ class PhotoNames:
         shared = {name: _shared(wanted, _parts(name)) for name in same}
         best = max(shared.values(), default=0)
         return 1, {name for name, count in shared.items() if count == best}
+
+
+def _outputs(names: Iterable[str]) -> dict[str, set[str]]:
+    """What ``skyline-viz detect`` calls its files for photos directly in the folder."""
+    flat = [PurePosixPath(name) for name in names if "/" not in name]
+    repeated = Counter(path.stem for path in flat)
+    items = [
+        DatasetItem(path.name if repeated[path.stem] > 1 else path.stem, Path(path))
+        for path in flat
+    ]
+    items.sort(key=lambda item: item.name)
+    called = output_names(items)
+    return {item.photo_path.name: {name} for item, name in zip(items, called, strict=True)}
 
 
 def _matched(names: Iterable[str], of: Callable[[str], tuple[int, set[str]]]) -> Matched:

@@ -34,6 +34,9 @@ def read_csv(task: Task) -> None:
         or (file.suffix.lower() == ".json" and begins_like_a_skyline(file))
     ]
     files.sort(key=lambda file: file.suffix.lower())  # of both, CSV counts
+    for file in task.files if files else ():
+        if file not in files and file.name not in task.given:
+            task.found.note("not read beside skylines in CSV or JSON", file.name)
     task.read_each(files or task.files, lambda file, _: read_truth(file))
 
 
