@@ -35,7 +35,7 @@ class Runs:
     top: int = 0
     """Where the box lies in the photo."""
     by_column: bool = True
-    """Whether runs go down the columns, as in COCO, or along the rows, as in CVAT."""
+    """Whether runs go down the columns of the whole photo, as in COCO, or along rows, as in CVAT."""
 
     def check(self) -> None:
         """Refuse runs that are no region.
@@ -52,6 +52,8 @@ class Runs:
         Raises:
             FormatError: The runs do not fill the box, or the box lies outside.
         """
+        if self.by_column and (self.height, self.width) != (height, width):
+            raise FormatError(f"its run lengths are for {self.width}x{self.height} pixels")
         inside = 0 <= self.left <= self.left + self.width <= width
         if not inside or not 0 <= self.top <= self.top + self.height <= height:
             raise FormatError("a mask lies outside the photo")

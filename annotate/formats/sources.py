@@ -92,19 +92,28 @@ def drawings_in(files: Sequence[Path], asked: str, found: Found) -> Iterator[Dra
     for file in chosen:
         try:
             yield from _drawings(file, asked, found)
+        except _AnotherKindError as error:
+            if len(chosen) == 1:
+                found.problem(f"{file} is {error}, not {shown(asked)}.")
+            else:
+                found.note(f"not read, because it is {error}", file.name)
         except FormatError as error:
             found.problem(str(error))
+
+
+class _AnotherKindError(FormatError):
+    """A file is sound, but of another kind."""
 
 
 def _drawings(file: Path, asked: str, found: Found) -> Iterable[Drawing]:
     if asked == "cvat":
         root = xml_of(file)
         if (kind := kind_of_xml(root.tag)) != asked:
-            raise FormatError(f"{file} is {kind}, not CVAT.")
+            raise _AnotherKindError(kind)
         return drawings_of_cvat(root, file, found)
     document = json_of(file)
     if (kind := kind_of_json(document)) != asked:
-        raise FormatError(f"{file} is {shown(kind)}, not {shown(asked)}.")
+        raise _AnotherKindError(shown(kind))
     if asked == "coco":
         return drawings_of_coco(document, file, found)
     return [_of_labelme(document, file, found)]
