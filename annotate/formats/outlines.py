@@ -35,7 +35,8 @@ class Runs:
     top: int = 0
     """Where the box lies in the photo."""
     by_column: bool = True
-    """Whether runs go down the columns of the whole photo, as in COCO, or along rows, as in CVAT."""
+    """Whether runs go down the columns of the whole photo, as in COCO, or along the rows, as in
+    CVAT."""
 
     def check(self) -> None:
         """Refuse runs that are no region.
