@@ -6,16 +6,19 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from skyline_viz.datasets import is_truth_folder, without_truths
 from skyline_viz.photo import find_photos
 from skyline_viz.photo_files import find_unread
 from skyline_viz.photo_kinds import left_out
 
 
 def photos_below(folder: Path) -> Iterator[Path]:
-    """Photos of a folder and of the folders in it, hidden ones left out."""
+    """Photos of a folder and of the folders in it; hidden ones and truths are left out."""
     for place, folders, _ in os.walk(folder):
-        folders[:] = sorted(name for name in folders if not name.startswith("."))
-        yield from find_photos(place)
+        here = Path(place)
+        shown = sorted(name for name in folders if not name.startswith("."))
+        folders[:] = [name for name in shown if not is_truth_folder(here / name)]
+        yield from without_truths(find_photos(here))
 
 
 def unread_below(folder: Path) -> str | None:

@@ -60,7 +60,7 @@ def checked(
         folded(State(Edits(photo.height, photo.width)), rows)
     except (LogError, ValueError) as error:
         raise FormatError(
-            f"{place}: {shown(str(error)).rstrip('.')}; nothing is imported."
+            f"{place}: {shown(str(error)).rstrip('.')}; it is not imported."
         ) from error
     return Log(photo.id, annotator, number, bool(told and told.blind), operations, line)
 

@@ -6,12 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from annotate.contents import Contents
-from annotate.database import shown
-from annotate.identity import Photo, short
+from annotate.formats.orphans import gone
+from annotate.identity import Photo
 from annotate.labels import Label
 from annotate.store import Store
-
-_NAMED = 5  # labels that a sentence names
 
 
 @dataclass(frozen=True)
@@ -64,18 +62,6 @@ def joined(store: Store, annotator: str | None = None, number: int | None = None
         list(store.unreadable),
         Contents.of(store.folder, photos),
     )
-
-
-def gone(orphans: Sequence[Label], where: str = "here any more") -> list[str]:
-    """A sentence that names labels whose photo is not there; none where there are none."""
-    if not orphans:
-        return []
-    names = [f"{shown(one.name)} ({short(one.digest or one.pixels)})" for one in orphans[:_NAMED]]
-    if more := len(orphans) - len(names):
-        names.append(f"and {more} more")
-    if len(orphans) == 1:
-        return [f"1 label belongs to a photo that is not {where}: {names[0]}."]
-    return [f"{len(orphans)} labels belong to photos that are not {where}: {', '.join(names)}."]
 
 
 def _worked_on(label: Label) -> bool:

@@ -7,12 +7,13 @@ Basalt     ``images/marsim0001.pgm``          ``ground_truth/GT_marsim001_Edge.b
 Web        ``images/R_GImag0001.bmp``         ``ground_truth/GT_GoogleImage001_Edge.bmp``
 CH1        ``PART/images/NAME.EXT``           ``PART/ground_truth/NAME-mask.EXT``
 GeoPose3K  ``NAME/photo.jpg``                 ``NAME/pinhole/labels*.png``, ``NAME/labels*.png``
-plain      ``images/*``, else ``*``           in ``masks/``, ``ground_truth/`` or beside the photo
+plain      ``images/*``, else ``*``           in a folder of truths or beside the photo
 =========  =================================  ====================================================
 
-What a truth may be, `skyline_viz.truths` says. It has the photo's name, to which ``-mask``,
-``_mask`` or ``_Edge`` may be added; Basalt and Web go by number. Several truths of a photo: the
-first counts, CSV and JSON before pictures.
+What a truth may be, `skyline_viz.truths` says. Folders of truths are ``ground_truth/``, ``masks/``,
+``truth/`` and ``labels/``. A truth has the photo's name, to which ``_mask``, ``_edge``, ``_gt``,
+``_truth`` or ``_label`` may be added, with ``-`` or ``_``; Basalt and Web go by number. Several
+truths of a photo: the first counts, CSV and JSON before pictures.
 
 GeoPose3K's maps in ``cyl/`` are in a cylindrical projection, to which the photo does not fit, and
 are not used.
@@ -21,8 +22,8 @@ are not used.
 import os
 import re
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -37,10 +38,13 @@ from skyline_viz.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, read_tru
 Layout = Literal["Basalt", "Web", "CH1", "GeoPose3K", "plain"]
 """The published layouts, and the folder of photographs that follows none of them."""
 
-_TRUTH_FOLDERS = ("ground_truth", "masks")
+_MAP_NAMES = ("label", "pinhole_label")
 _CH1_PARTS = ("cvg", "panoramio", "poor_edge_images")
 _NUMBERED = re.compile(r"(?:gt_)?(?:(marsim)|r_gimag|googleimage)(\d+)(?:_edge)?", re.IGNORECASE)
-_ADDED = re.compile(r"([-_]mask|_edge)$", re.IGNORECASE)
+_ADDED = re.compile(r"[-_](masks?|edge|gt|truth|labels?)$", re.IGNORECASE)
+
+TRUTH_FOLDERS = ("ground_truth", "masks", "truth", "labels")
+"""Folders (lower case) beside photos, or beside their ``images/``, that hold truths."""
 
 
 class DatasetError(ValueError):
@@ -63,6 +67,12 @@ class DatasetItem:
     label_map: bool = False
     """Whether the truth is a GeoPose3K label map, in which black is sky."""
 
+    sky: str | None = None
+    """Which value of a mask is sky, as `read_truth` takes it; told by the mask unless given."""
+
+    terrain: str | None = None
+    """Which value of a mask is terrain, instead of `sky`."""
+
     def photo(self) -> U8:
         """Read the photo, ``(H, W, 3)`` uint8 RGB; what there is to know about it is noted.
 
@@ -80,7 +90,9 @@ class DatasetItem:
         Raises:
             SkylineError: The file is damaged, or is no truth; the message names it.
         """
-        return None if self.truth_path is None else read_truth(self.truth_path, self.label_map)
+        if self.truth_path is None:
+            return None
+        return read_truth(self.truth_path, self.label_map, sky=self.sky, terrain=self.terrain)
 
 
 @dataclass(frozen=True)
@@ -110,12 +122,20 @@ class Dataset:
         return len(self.items)
 
 
-def open_dataset(folder: str | os.PathLike[str]) -> Dataset:
+def open_dataset(
+    folder: str | os.PathLike[str], *, sky: str | None = None, terrain: str | None = None
+) -> Dataset:
     """Open a data set, or the folder in which a single one lies, and match photos with truths.
 
     Looks at names and headers and reads no pixels. A photo without truth is fine. A truth without
     photo, or of another size than its photo, is left out and named in `Dataset.problems`. Hidden
     files are ignored.
+
+    Args:
+        folder: The folder.
+        sky: Which value of masks is sky, as `skyline_viz.truths.read_truth` takes it; told by each
+            mask itself unless given.
+        terrain: Which value of masks is terrain, instead of `sky`.
 
     Raises:
         DatasetError: The folder is missing, is a file, cannot be listed, holds no photograph, or
@@ -135,7 +155,44 @@ def open_dataset(folder: str | os.PathLike[str]) -> Dataset:
     if len(found) > 1:
         names = ", ".join(dataset.name for dataset in found)
         raise DatasetError(f"{root} holds several data sets, {names}; open one of them.")
-    return found[0]
+    items = tuple(replace(item, sky=sky, terrain=terrain) for item in found[0])
+    return replace(found[0], items=items)
+
+
+def bare_stem(stem: str) -> str:
+    """The name of a truth without what is added to that of its photo.
+
+    >>> bare_stem("a_mask"), bare_stem("b-Edge"), bare_stem("c")
+    ('a', 'b', 'c')
+    """
+    return _ADDED.sub("", stem)
+
+
+def truth_names(item: DatasetItem) -> str:
+    """Names by which the truth of a photo would be found, in words."""
+    stem = item.photo_path.stem
+    if item.label_map:
+        return f"labels.png in {item.photo_path.parent.name} or its folder pinhole"
+    places = " or ".join([", ".join(f"{one}/" for one in TRUTH_FOLDERS[:-1]), TRUTH_FOLDERS[-1]])
+    return f"{stem}.png, {stem}_mask.png, {stem}.csv or the like, in {places}/"
+
+
+def is_truth_folder(place: Path) -> bool:
+    """Whether a folder holds the truths of the photos beside it, and not photos."""
+    named = place.name.lower() in TRUTH_FOLDERS
+    return named and bool(_folder(place.parent, "images") or find_photos(place.parent))
+
+
+def without_truths(files: Sequence[Path]) -> list[Path]:
+    """The photos among the pictures of a folder: what has a photo's name and ``_mask`` is none."""
+    stems = {file.stem for file in files}
+    maps = any(stem.lower() == "photo" for stem in stems)
+    return [
+        file
+        for file in files
+        if bare_stem(file.stem) == file.stem or bare_stem(file.stem) not in stems
+        if not (maps and file.stem.lower().startswith(_MAP_NAMES))
+    ]
 
 
 def _inside(root: Path) -> list[Dataset]:
@@ -190,7 +247,7 @@ def _photos_elsewhere(root: Path, taken: set[Path]) -> str | None:
     """A sentence about photos in folders of a data set in which none is looked for."""
     elsewhere = {}
     for folder in [root, *_folders(root)]:
-        truths = folder.name.lower() in _TRUTH_FOLDERS and folder != root
+        truths = folder.name.lower() in TRUTH_FOLDERS and folder != root
         if folder not in taken and not truths and (count := len(find_photos(folder))):
             elsewhere["the folder itself" if folder == root else folder.name] = count
     if not elsewhere:
@@ -203,10 +260,8 @@ def _else_in(root: Path) -> str:
     """What a folder without photos holds instead, to end a sentence."""
     if unread := left_out(find_unread(root), root):
         return f"; {unread[:-1]}"
-    others = [one for one in _folders(root) if one.name.lower() not in _TRUTH_FOLDERS]
-    inside = [
-        (one.name, sum(not _ADDED.search(f.stem) for f in find_photos(one))) for one in others
-    ]
+    others = [one for one in _folders(root) if one.name.lower() not in TRUTH_FOLDERS]
+    inside = [(one.name, len(without_truths(find_photos(one)))) for one in others]
     if full := [f"{name} ({count})" for name, count in inside if count]:
         return f" itself, but folders in it do: {', '.join(full)}; name those"
     return ""
@@ -221,11 +276,12 @@ def _match(root: Path, folder: Path, prefix: str, problems: list[str]) -> list[D
 
     def is_truth(file: Path) -> bool:  # but knife_edge.jpg is a photo, unless there is a knife.jpg
         added = _ADDED.search(file.stem)
-        return added is not None and (_bare(file) in stems or added[1].lower() != "_edge")
+        mask = added is not None and added[0].lower() in ("-mask", "_mask")
+        return added is not None and (mask or bare_stem(file.stem) in stems)
 
     photos = [file for file in files if not is_truth(file)]
     truths = [file for file in _skyline_files(images) if begins_like_a_skyline(file)]
-    for place in (_folder(folder, "ground_truth"), _folder(folder, "masks")):
+    for place in (_folder(folder, name) for name in TRUTH_FOLDERS):
         truths += [*_skyline_files(place), *find_photos(place)] if place else []
     truths += [file for file in files if is_truth(file)]
     truths.sort(key=lambda file: file.suffix.lower() not in SKYLINE_SUFFIXES)
@@ -235,7 +291,9 @@ def _match(root: Path, folder: Path, prefix: str, problems: list[str]) -> list[D
     for photo, candidates in matched.items():
         named.setdefault(_key(photo.stem), []).append(candidates)
     for truth in truths:
-        for candidates in (found := named.get(_key(truth.stem)) or named.get(_bare(truth), [])):
+        for candidates in (
+            found := named.get(_key(truth.stem)) or named.get(bare_stem(truth.stem), [])
+        ):
             candidates.append(truth)
         if not found:
             problems.append(f"{truth.relative_to(root)} has no photo.")
@@ -297,10 +355,6 @@ def _key(stem: str) -> str:
     return f"{'marsim' if numbered[1] else 'web'} {int(numbered[2])}" if numbered else stem
 
 
-def _bare(truth: Path) -> str:
-    return _ADDED.sub("", truth.stem)
-
-
 def _folders(folder: Path) -> list[Path]:
     inside = (child for child in folder.iterdir() if not child.name.startswith("."))
     return sorted(child for child in inside if child.is_dir() and os.access(child, os.R_OK))
@@ -322,4 +376,4 @@ def _photo_of(folder: Path) -> Path | None:
 def _label_maps(folder: Path) -> list[Path]:
     places = [place for place in (_folder(folder, "pinhole"), folder) if place]
     files = [file for place in places for file in find_photos(place)]
-    return [file for file in files if file.stem.lower().startswith(("label", "pinhole_label"))]
+    return [file for file in files if file.stem.lower().startswith(_MAP_NAMES)]

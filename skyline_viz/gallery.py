@@ -291,7 +291,8 @@ def _digest_of(method: Method) -> str:
 
 
 def _digest_of_files(start: str, item: DatasetItem) -> str:
-    digest = hashlib.sha256(start.encode())
+    reading = "" if item.sky is None and item.terrain is None else f"{item.sky} {item.terrain}"
+    digest = hashlib.sha256((start + reading).encode())
     for path in (item.photo_path, item.truth_path):
         if path is not None:
             with path.open("rb") as file:

@@ -27,6 +27,7 @@ __all__ = [
     "photo_size",
     "read_photo",
     "read_photo_with_notes",
+    "reading",
     "write_photo",
 ]
 
@@ -74,7 +75,7 @@ def read_photo_with_notes(
     Raises:
         PhotoError: As `read_photo`.
     """
-    with _reading(path) as file, opened(file, Path(path)) as image:
+    with reading(path) as file, opened(file, Path(path)) as image:
         height, width = image.shape
         if width * height > max_megapixels * 1e6:
             raise PhotoError(
@@ -95,7 +96,7 @@ def photo_size(path: str | os.PathLike[str]) -> tuple[int, int]:
     Raises:
         PhotoError: Missing, a folder, empty, not an image, or a raw file.
     """
-    with _reading(path) as file, opened(file, Path(path)) as image:
+    with reading(path) as file, opened(file, Path(path)) as image:
         return image.shape
 
 
@@ -115,8 +116,8 @@ def write_photo(path: str | os.PathLike[str], photo: U8, *, quality: int = 90) -
 
 
 @contextlib.contextmanager
-def _reading(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
-    """Open a file; whatever goes wrong in the block comes out as a `PhotoError`."""
+def reading(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """Open a picture's file; whatever goes wrong in the block comes out as a `PhotoError`."""
     try:
         if wrong := checked_file(Path(path)):
             raise PhotoError(f"{path} {wrong}.")

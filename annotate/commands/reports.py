@@ -31,7 +31,8 @@ class Status:
         from rich.table import Table  # noqa: PLC0415
 
         from annotate.folder import unread_below  # noqa: PLC0415
-        from annotate.joined import gone, joined  # noqa: PLC0415
+        from annotate.formats.orphans import gone  # noqa: PLC0415
+        from annotate.joined import joined  # noqa: PLC0415
 
         with opened(self.folder) as store:
             found = joined(store)

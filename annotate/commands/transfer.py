@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -22,9 +22,9 @@ from annotate.commands.options import (
 )
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, tell
 from skyline_viz.commands.settings import OptionalFolder, Switch
+from skyline_viz.commands.truth_options import TruthOptions, Truths
 
 if TYPE_CHECKING:
-    from annotate.formats import Imported
     from annotate.identity import Photo
     from annotate.label_table import Log
 
@@ -104,68 +104,80 @@ class Import:
     status: Literal["needs review", "accepted"] = "needs review"
     """Status of labels whose format does not carry one."""
 
+    label: Annotated[str | None, tyro.conf.arg(metavar="NAME")] = None
+    """What skylines, or regions of sky, are called in it; skyline, horizon and sky unless given."""
+
+    truths: TruthOptions = field(default_factory=Truths)
+    """Which value of a mask, or which label of a region, is sky or terrain."""
+
     def run(self) -> int:
         """Import; return the exit status."""
         from annotate.store import Store  # noqa: PLC0415
 
         check_folder(self.folder)
         with closing(Store(self.folder, reading=True)) as store:
-            logs = self._checked(store.find())  # before a file is made, or a row is added
+            logs, problems, notes = self._checked(store.find())  # before a file or a row is made
         with closing(Store(self.folder)) as store:
             ids = {photo.digest: photo.id for photo in store.find()}
-            for digest in logs:
-                if digest[0] not in ids:
+            for digest, _, _ in logs:
+                if digest not in ids:
                     raise UsageError(f"a photo in {self.folder} was changed meanwhile; try again.")
-            kept = [replace(log, photo=ids[digest[0]]) for digest, log in logs.items()]
+            kept = [replace(log, photo=ids[digest]) for (digest, _, _), log in logs.items()]
             skipped = store.insert(kept)
             names = {photo.id: photo.name for photo in store.find()}  # reads what they are known by
+        for sentence in (*problems, *notes):
+            say(sentence, PROGRAM)
         for log in skipped:
             already = f"has been labelled by {log.annotator} in pass {log.number} already."
             say(f"{names[log.photo]} {already}", PROGRAM)
         tell(f"{counted(len(logs) - len(skipped), 'label')} imported into {self.folder}")
         if skipped:
             say("name another --annotator or --pass-number to keep both.", PROGRAM)
-        return SOME_FAILED if skipped else GOOD
+        return SOME_FAILED if skipped or problems else GOOD
 
-    def _checked(self, photos: list[Photo]) -> dict[tuple[str, str, int], Log]:
-        """Labels that can be kept, by the digest of their photo, annotator and pass."""
+    def _checked(
+        self, photos: list[Photo]
+    ) -> tuple[dict[tuple[str, str, int], Log], list[str], list[str]]:
+        """Labels that can be kept, by the digest of their photo, annotator and pass.
+
+        Also a sentence for each that cannot, and what is worth knowing.
+        """
+        from annotate.contents import Contents  # noqa: PLC0415
+        from annotate.formats import FormatError, import_labels  # noqa: PLC0415
         from annotate.importing import checked  # noqa: PLC0415
 
-        by_name = {photo.name: photo for photo in photos}
         if not photos:
             raise UsageError(f"{self.folder} holds no photograph.")
+        by_name = {photo.name: photo for photo in photos}
+        read = import_labels(
+            self.source,
+            self.folder,
+            by_name,
+            self.format,
+            label=self.label,
+            sky=self.truths.sky,
+            terrain=self.truths.terrain,
+            contents=Contents.of(self.folder, photos),
+        )
         logs: dict[tuple[str, str, int], Log] = {}
-        for one in self._read(photos):
+        problems = list(read.problems)
+        for one in read:
             told, photo = one.label, by_name[one.name]
             who = self.annotator or (told.annotator if told else "") or whoever("")
             number = self.pass_number or (told.number if told else 1)
-            log = checked(one, photo, who, number, status=self.status, source=self.source.name)
-            if (photo.digest, who, number) in logs:
-                raise UsageError(
-                    f"{self.source} holds several labels of {one.name} by {who}, pass {number}, "
-                    "and one is kept; nothing is imported."
+            try:
+                log = checked(one, photo, who, number, status=self.status, source=self.source.name)
+            except FormatError as error:
+                problems.append(str(error))
+                continue
+            if logs.setdefault((photo.digest, who, number), log) is not log:
+                problems.append(
+                    f"{self.source} holds several labels of {one.name} by {who}, pass {number}; "
+                    "the first of them counts."
                 )
-            logs[photo.digest, who, number] = log
-        return logs
-
-    def _read(self, photos: list[Photo]) -> list[Imported]:
-        """What the file or folder holds of these photos; what is of others is said."""
-        from annotate import formats  # noqa: PLC0415
-        from annotate.contents import Contents  # noqa: PLC0415
-        from annotate.formats.whole import at_home, read_labels  # noqa: PLC0415
-        from annotate.joined import gone  # noqa: PLC0415
-
-        names = [photo.name for photo in photos]
-        if not self.source.exists() or (self.format or formats.format_of(self.source)) != "json":
-            return formats.import_labels(self.source, self.folder, names, self.format)
-        contents = Contents.of(self.folder, photos)
-        found, others = at_home(read_labels(self.source), self.folder, contents)
-        said = gone(others, f"in {self.folder}")
-        if not found:
-            raise formats.FormatError(" ".join(said) or f"{self.source} holds no label.")
-        for sentence in said:
-            say(sentence, PROGRAM)
-        return found
+        if not logs:
+            raise FormatError(" ".join(problems[:3]))
+        return logs, problems, list(read.notes)
 
 
 @dataclass(frozen=True)

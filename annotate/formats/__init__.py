@@ -30,20 +30,36 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from annotate.contents import Contents
-from annotate.formats import interchange, masks, tables, whole
+from annotate.formats import coco, cvat, labelme, masks, tables, whole
 from annotate.formats.common import (
     Entry,
     FormatError,
     Imported,
-    Reader,
     Writer,
     entries_of,
-    names_of,
+    names_below,
     one_each,
     orphans_of,
 )
+from annotate.formats.documents import unpacked
+from annotate.formats.drawings import Wanted
+from annotate.formats.importing import Found, Imports, Reader, Task
+from annotate.formats.interpretation import interpret
+from annotate.formats.photo_names import PhotoNames
+from annotate.formats.sources import drawings_in, files_below, format_of
 from annotate.labels import Label
 from skyline_viz.files import make_folder, move_folder
+
+
+def _drawn(format: str) -> Reader:  # noqa: A002
+    """Reader of the files of a drawing program."""
+
+    def read(task: Task) -> None:
+        drawings = list(drawings_in(list(task.files), format, task.found))
+        interpret(drawings, task.wanted, task.names, task.photos, task.found)
+
+    return read
+
 
 FORMATS: dict[str, tuple[Writer, Reader]] = {
     "mask": (masks.write_masks, masks.read_masks),
@@ -51,9 +67,9 @@ FORMATS: dict[str, tuple[Writer, Reader]] = {
     "ch1": (masks.write_ch1, masks.read_ch1),
     "csv": (tables.write_csv, tables.read_csv),
     "json": (whole.write_json, whole.read_json),
-    "coco": (interchange.write_coco, interchange.read_coco),
-    "labelme": (interchange.write_labelme, interchange.read_labelme),
-    "cvat": (interchange.write_cvat, interchange.read_cvat),
+    "coco": (coco.write_coco, _drawn("coco")),
+    "labelme": (labelme.write_labelme, _drawn("labelme")),
+    "cvat": (cvat.write_cvat, _drawn("cvat")),
 }
 """How each format is written and read."""
 
@@ -157,59 +173,72 @@ def import_labels(
     photos: Path,
     names: Iterable[str],
     format: str | None = None,  # noqa: A002
-) -> list[Imported]:
-    """Read labels.
+    *,
+    label: str | None = None,
+    sky: str | None = None,
+    terrain: str | None = None,
+    contents: Contents | None = None,
+) -> Imports:
+    """Read labels. What is wrong with one of them is said, and the others are read.
 
     Args:
-        source: File or folder, as `export_labels` or another tool wrote it.
+        source: File, folder or ZIP, as `export_labels` or another tool wrote it.
         photos: Folder of the photos.
         names: Names of the photos below the folder, with ``/`` between folders.
         format: One of `FORMATS`; told by the content unless given.
+        label: Label of the lines that are skylines, or of the regions that are sky; several with
+            commas between, compared without case. ``skyline``, ``horizon`` and ``sky`` unless
+            given.
+        sky: Label of the regions that are sky, or the value of a mask, as `read_truth` takes it.
+        terrain: Label of the regions that are terrain, or the value of a mask.
+        contents: What is in the files of the photos, where that is known.
 
     Raises:
-        FormatError: Damaged, of no known format, or about no photo of the folder.
+        FormatError: Damaged, of no known format, or about no photo of the folder; the message says
+            what was found instead.
     """
     if not source.exists():
         raise FormatError(f"{source} does not exist.")
-    chosen = format or format_of(source)
-    if chosen not in FORMATS:
-        raise FormatError(f"{chosen!r} is no format; there are {', '.join(FORMATS)}.")
-    found = FORMATS[chosen][1](source, photos, names_of(names, photos))
-    if not found:
-        raise FormatError(f"{source} holds no label of a photo in {photos}.")
-    return found
+    if format is not None and format not in FORMATS:
+        raise FormatError(f"{format!r} is no format; there are {', '.join(FORMATS)}.")
+    if sky is not None and terrain is not None:
+        raise FormatError("say which label or value is sky, or which is terrain, and not both.")
+    names = tuple(names)
+    with unpacked(source) as place:
+        files = files_below(place)
+        task = Task(
+            source=place,
+            files=tuple(files),
+            photos=photos,
+            given=names,
+            names=PhotoNames(names, names_below(photos)),
+            found=Found(),
+            contents=contents,
+            wanted=Wanted.of(label, sky, terrain),
+            sky=sky,
+            terrain=terrain,
+        )
+        try:
+            FORMATS[format or format_of(place, files)][1](task)
+        except FormatError as error:
+            raise FormatError(_unpacked_name(str(error), place, source)) from error
+        except MemoryError as error:
+            raise FormatError(f"{source} does not fit into memory.") from error
+    found = task.found
+    found.problems[:] = [_unpacked_name(one, place, source) for one in found.problems]
+    if not found.labels:
+        reasons = [*found.problems, *found.notes]
+        if len(reasons) == 1 and not reasons[0].startswith("found labels"):
+            raise FormatError(reasons[0])
+        why = f": {' '.join(reasons[:3])}" if reasons else "."
+        raise FormatError(f"{source} holds no label of a photo in {photos}{why}")
+    return found.outcome()
 
 
-def format_of(source: Path) -> str:
-    """The format of a file or folder, by what is in it.
+def _unpacked_name(text: str, place: Path, source: Path) -> str:
+    """Text that names the ZIP, and not where it was unpacked."""
+    return text if place == source else text.replace(f"{place}", f"{source}")
 
-    Raises:
-        FormatError: It is of no known format.
-    """
-    if source.suffix == ".json":
-        return tables.kind_of_json(source)
-    if source.suffix == ".xml":
-        return "cvat"
-    inside = {path.name for path in source.iterdir()} if source.is_dir() else set()
-    for name, format in _MARKS.items():  # noqa: A001
-        if name in inside:
-            return format
-    for format, ending in {"mask": ".png", "labelme": ".json", "csv": ".csv"}.items():  # noqa: A001
-        if any(name.endswith(ending) for name in {*inside, source.name}):
-            return format
-    raise FormatError(f"{source} is of no known format; say which with --format.")
-
-
-_MARKS = {
-    "annotations.xml": "cvat",
-    "labels.json": "json",
-    "annotations-rle.json": "coco",
-    "annotations-polygon.json": "coco",
-    "names.csv": "painted",
-    masks.CH1_PART: "ch1",
-    "masks": "mask",
-}
-"""Files and folders by which a folder's format is told."""
 
 __all__ = [
     "FORMATS",
@@ -217,6 +246,7 @@ __all__ = [
     "Export",
     "FormatError",
     "Imported",
+    "Imports",
     "archive",
     "export_labels",
     "format_of",

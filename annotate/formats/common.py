@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import TypeAlias
@@ -16,7 +16,7 @@ from annotate.contents import Contents
 from annotate.folder import photos_below
 from annotate.labels import Label
 from skyline_viz.photo import PhotoError, photo_size
-from skyline_viz.skyline import Skyline, SkylineError, fill
+from skyline_viz.skyline import Skyline, SkylineError
 
 
 class FormatError(ValueError):
@@ -54,16 +54,13 @@ class Imported:
 Writer: TypeAlias = Callable[[list[Entry], Path], None]
 """Writes labels into a folder."""
 
-Reader: TypeAlias = Callable[[Path, Path, Mapping[str, str]], list[Imported]]
-"""Reads a file or folder, given the folder of the photos and the photo of each safe name."""
-
 
 def entries_of(
     labels: Iterable[Label], photos: Path, contents: Contents | None = None
 ) -> tuple[list[Entry], list[str]]:
     """Labels that can be written, each with its own photo, and a sentence for each that cannot."""
     entries, notes = [], []
-    names = _names_below(photos)
+    names = names_below(photos)
     stems = safe_stems(names)
     contents = contents or Contents(photos, names)
     for label in labels:
@@ -86,7 +83,7 @@ def orphans_of(labels: Iterable[Label], photos: Path) -> tuple[list[Entry], list
     Where a name is not clear any more, the digest of the photo is part of the stem.
     """
     labels = list(labels)
-    taken = Counter(label.name for label in labels) + Counter(_names_below(photos))
+    taken = Counter(label.name for label in labels) + Counter(names_below(photos))
     stems = safe_stems(taken)
     entries, notes = [], []
     for label in labels:
@@ -139,18 +136,6 @@ def safe_stems(names: Iterable[str]) -> dict[str, str]:
     return stems
 
 
-def names_of(names: Iterable[str], photos: Path) -> dict[str, str]:
-    """The photo of each safe name, and of each name as it is, where that is clear."""
-    names = list(names)
-    stems = safe_stems({*names, *_names_below(photos)})
-    found = {stems[name]: name for name in names}
-    bare = Counter(PurePosixPath(name).name for name in names)
-    for name in names:
-        if bare[PurePosixPath(name).name] == 1:
-            found.setdefault(PurePosixPath(name).name, name)
-    return {**found, **{name: name for name in names}}
-
-
 def check_size(name: str, skyline: Skyline, photos: Path, height: int | None = None) -> Skyline:
     """Return a line that fits its photo.
 
@@ -195,28 +180,8 @@ def runs_of_points(skyline: Skyline) -> list[npt.NDArray[np.float64]]:
     return [points[start:stop] for start, stop in zip(starts, stops, strict=True)]
 
 
-def from_points(runs: Iterable[npt.NDArray[np.float64]], width: int) -> Skyline:
-    """Line through runs of points; between two points it is straight, outside it is not visible.
-
-    Raises:
-        FormatError: There is no point, or one that is not finite.
-    """
-    rows = np.zeros(width)
-    visible: npt.NDArray[np.bool_] = np.zeros(width, np.bool_)
-    centres = np.arange(width) + 0.5
-    for run in runs:
-        if not np.isfinite(run).all() or np.abs(run).max(initial=0) > 1e6:
-            raise FormatError("a point is not finite, or far outside any photo.")
-        run = run[np.argsort(run[:, 0], kind="stable")]  # noqa: PLW2901
-        inside = (centres >= run[0, 0] - 0.5) & (centres <= run[-1, 0] + 0.5)
-        rows[inside] = np.floor(np.interp(centres[inside], run[:, 0], run[:, 1]) + 0.5)
-        visible |= inside
-    if not visible.any():
-        raise FormatError("no point of the line lies inside the photo.")
-    return Skyline(rows=fill(rows, visible), visible=visible)
-
-
-def _names_below(photos: Path) -> list[str]:
+def names_below(photos: Path) -> list[str]:
+    """Names of the photos of a folder and of the folders in it."""
     return [path.relative_to(photos).as_posix() for path in photos_below(photos)]
 
 

@@ -6,23 +6,23 @@
 from __future__ import annotations
 
 import csv
-import re
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
 
 from annotate.formats.common import Entry, FormatError, Imported, check_size
+from annotate.formats.importing import Task
+from skyline_viz.datasets import TRUTH_FOLDERS
 from skyline_viz.photo import PHOTO_SUFFIXES, PhotoError, photo_size, read_photo, write_photo
 from skyline_viz.skyline import Skyline, SkylineError
-from skyline_viz.truths import read_truth
+from skyline_viz.truths import truth_with_notes
 
 CH1_PART = "cvg"
 """The folder of CH1 in which an export lies; `skyline_viz.open_dataset` knows it."""
 
 _INDEX, _HEADER = "names.csv", ["file", "photo"]
-_ADDED = re.compile(r"([-_]mask|_edge)$", re.IGNORECASE)
 
 
 def write_masks(entries: list[Entry], folder: Path) -> None:
@@ -31,10 +31,14 @@ def write_masks(entries: list[Entry], folder: Path) -> None:
         write_photo(folder / "masks" / f"{entry.stem}.png", _mask(entry))
 
 
-def read_masks(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
-    """Read the masks of a folder, or one of them."""
-    folder = source / "masks" if (source / "masks").is_dir() else source
-    return _read(_pictures(folder), photos, names)
+def read_masks(task: Task) -> None:
+    """Read masks: those in folders of truths, or else all pictures."""
+    pictures = [file for file in task.files if file.suffix.lower() in PHOTO_SUFFIXES]
+    for place in ("SegmentationClass", *TRUTH_FOLDERS):
+        if inside := [one for one in pictures if one.parent.name.lower() == place.lower()]:
+            pictures = inside
+            break
+    _read(pictures, task)
 
 
 def write_ch1(entries: list[Entry], folder: Path) -> None:
@@ -47,12 +51,11 @@ def write_ch1(entries: list[Entry], folder: Path) -> None:
         shutil.copyfile(entry.photo, part / "images" / f"{entry.stem}{suffix}")
 
 
-def read_ch1(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
+def read_ch1(task: Task) -> None:
     """Read the masks of all parts of CH1, or one of them."""
-    if source.is_file():
-        return _read([source], photos, names)
-    found = [one for place in sorted(source.glob("*/ground_truth")) for one in _pictures(place)]
-    return _read(found, photos, names)
+    pictures = [file for file in task.files if file.suffix.lower() in PHOTO_SUFFIXES]
+    inside = [file for file in pictures if file.parent.name.lower() == "ground_truth"]
+    _read(inside or pictures, task)
 
 
 def write_painted(entries: list[Entry], folder: Path) -> None:
@@ -80,41 +83,48 @@ def write_painted(entries: list[Entry], folder: Path) -> None:
         csv.writer(file, lineterminator="\n", quoting=csv.QUOTE_ALL).writerows(lines)
 
 
-def read_painted(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
+def read_painted(task: Task) -> None:
     """Read painted photos; their names are looked up in ``names.csv`` where there is one."""
+    source = task.source
     folder = source.parent if source.is_file() else source
     index = _read_index(folder if (folder / _INDEX).is_file() else folder.parent)
-    if source.is_file():
-        files = [source]
-    else:
-        files = _pictures(folder / "ground_truth" if (folder / "ground_truth").is_dir() else folder)
-    known = {file: names[photo] for file, photo in index.items() if photo in names}
-    if index:
-        files = [file for file in files if file.name in known]
-        return _read(
-            files, photos, {_ADDED.sub("", Path(file).stem): known[file] for file in known}
-        )
-    return _read(files, photos, names)
-
-
-def _read(files: Iterable[Path], photos: Path, names: Mapping[str, str]) -> list[Imported]:
-    """Labels of the files that are about a photo; another size than the photo's is an error."""
-    found = []
-    for file in files:
-        name = names.get(file.stem) or names.get(_ADDED.sub("", file.stem))
-        if name is None:
+    pictures = [file for file in task.files if file.suffix.lower() in PHOTO_SUFFIXES]
+    inside = [file for file in pictures if file.parent.name.lower() == "ground_truth"]
+    if not index:
+        _read(inside or pictures, task)
+        return
+    files = {file.name: file for file in inside or pictures}
+    matched = task.names.of_references(index[name] for name in files if name in index)
+    for sentence in matched.unclear:
+        task.found.problem(sentence)
+    for name, file in files.items():
+        photo = matched.photos.get(index.get(name, ""))
+        if photo is None:
+            task.found.note("painted photos belong to no photo of the folder", name)
             continue
         try:
-            size, wanted = photo_size(file), photo_size(photos / name)
-            if size != wanted:
-                raise FormatError(
-                    f"{file} has {size[1]}x{size[0]} pixels, and {name} {wanted[1]}x{wanted[0]}."
-                )
-            skyline: Skyline = read_truth(file)
-        except (PhotoError, SkylineError) as error:
-            raise FormatError(str(error)) from error
-        found.append(Imported(name, check_size(name, skyline, photos)))
-    return found
+            line = _line_of(file, photo, task)
+            found = Imported(photo, check_size(photo, line, task.photos))
+            task.found.labels.append(found)
+        except (FormatError, PhotoError, SkylineError) as error:
+            task.found.problem(str(error))
+
+
+def _read(files: Iterable[Path], task: Task) -> None:
+    task.read_each(files, lambda file, photo: _line_of(file, photo, task))
+
+
+def _line_of(file: Path, photo: str, task: Task) -> Skyline:
+    """The line of a picture; another size than the photo's is an error."""
+    size, wanted = photo_size(file), photo_size(task.photos / photo)
+    if size != wanted:
+        raise FormatError(
+            f"{file} has {size[1]}x{size[0]} pixels, and {photo} {wanted[1]}x{wanted[0]}."
+        )
+    line = truth_with_notes(file, sky=task.sky, terrain=task.terrain)
+    for note in line.notes:
+        task.found.note(note, photo)
+    return line.skyline
 
 
 def _read_index(folder: Path) -> dict[str, str]:
@@ -135,11 +145,3 @@ def _read_index(folder: Path) -> dict[str, str]:
 def _mask(entry: Entry) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
     sky = entry.skyline.to_mask(entry.label.height)
     return np.where(sky, 0, 255).astype(np.uint8)
-
-
-def _pictures(folder: Path) -> list[Path]:
-    return sorted(
-        file
-        for file in (folder.iterdir() if folder.is_dir() else [folder])
-        if file.suffix.lower() in PHOTO_SUFFIXES and not file.name.startswith(".")
-    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -12,11 +12,16 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
 from annotate.contents import Contents
 from annotate.formats.common import Entry, FormatError, Imported, check_size
-from annotate.formats.tables import JSON_FORMAT, load_json
+from annotate.formats.documents import json_of
+from annotate.formats.importing import Task
+from annotate.formats.orphans import gone
 from annotate.labels import MOST_PASSES, ORIGINS, Label, check_annotator
 from annotate.operations import Status
 from skyline_viz.files import write_text
 from skyline_viz.skyline import Skyline, SkylineError
+
+FORMAT = "skyline-labels"
+"""What ``labels.json`` says that it is."""
 
 MOST_LABELS = 100_000
 """Labels that a file may hold."""
@@ -73,60 +78,58 @@ def write_json(entries: list[Entry], folder: Path) -> None:
             "origin": [ORIGINS[one] for one in entry.label.origin.tolist()],
         }
         labels.append(label)
-    document = {"format": JSON_FORMAT, "version": _VERSION, "labels": labels}
+    document = {"format": FORMAT, "version": _VERSION, "labels": labels}
     write_text(folder / "labels.json", json.dumps(document) + "\n")
 
 
-def read_labels(source: Path) -> list[Label]:
-    """Read what `write_json` wrote.
+def read_json(task: Task) -> None:
+    """Read what `write_json` wrote; labels find their photos by what is in these.
 
     The form of each label is checked, and its line; what was done to it is checked against the
     photo, when it is imported.
 
-    Args:
-        source: The file, or its folder.
-
     Raises:
-        FormatError: It cannot be read, or a label is not whole.
+        FormatError: The file cannot be read.
     """
+    contents = task.contents or Contents(task.photos, task.given)
+    others = []
+    for label in _labels(task.source, task.found.problem):
+        name = contents.name_of(label)
+        if name is None or label.skyline is None:
+            others.append(label)
+            continue
+        try:
+            line = check_size(name, label.skyline, task.photos, label.height)
+        except FormatError as error:
+            task.found.problem(str(error))
+        else:
+            task.found.labels.append(Imported(name, line, label.tags, label))
+    for sentence in gone(others, f"in {task.photos}"):
+        task.found.note(sentence.removesuffix("."))
+
+
+def _labels(source: Path, problem: Callable[[str], None]) -> Iterator[Label]:
+    """The labels of a file, or of the file in a folder, that are whole."""
     file = source / "labels.json" if source.is_dir() else source
-    document = load_json(file)
-    if document.get("format") != JSON_FORMAT or not isinstance(document.get("labels"), list):
-        raise FormatError(f'{file} is not of the format "{JSON_FORMAT}".')
+    document = json_of(file)
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        raise FormatError(f'{file} is not of the format "{FORMAT}".')
+    labels = document.get("labels")
+    if not isinstance(labels, list):
+        raise FormatError(f"{file} holds no list of labels.")
     if document.get("version") not in _KNOWN:
         known = " and ".join(map(str, _KNOWN))
         said = f"{document.get('version')!r:.40}"
         raise FormatError(f"{file} has version {said}, and {known} are known.")
-    if len(document["labels"]) > MOST_LABELS:
+    if len(labels) > MOST_LABELS:
         raise FormatError(
-            f"{file} holds {len(document['labels']):,} labels, and at most {MOST_LABELS:,} are "
-            "read."
+            f"{file} holds {len(labels):,} labels, and at most {MOST_LABELS:,} are read."
         )
-    return [_label(one, file, place) for place, one in enumerate(document["labels"], 1)]
-
-
-def read_json(source: Path, photos: Path, names: Mapping[str, str]) -> list[Imported]:
-    """Read the labels whose photos are in a folder."""
-    return at_home(read_labels(source), photos, Contents(photos, names.values()))[0]
-
-
-def at_home(
-    labels: Iterable[Label], photos: Path, contents: Contents
-) -> tuple[list[Imported], list[Label]]:
-    """Labels whose photos are in a folder, told by their digests, and those whose are not.
-
-    Raises:
-        FormatError: The line of one does not fit its photo.
-    """
-    found, others = [], []
-    for label in labels:
-        name = contents.name_of(label)
-        if name is None or label.skyline is None:
-            others.append(label)
-        else:
-            line = check_size(name, label.skyline, photos, label.height)
-            found.append(Imported(name, line, label.tags, label))
-    return found, others
+    for place, said in enumerate(labels, 1):
+        try:
+            yield _label(said, file, place)
+        except FormatError as error:
+            problem(str(error))
 
 
 def _label(said: object, file: Path, place: int) -> Label:

@@ -20,6 +20,7 @@ from skyline_viz.commands.settings import (
     Switch,
     make_detector,
 )
+from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
@@ -55,6 +56,9 @@ class Diagnose:
     methods: MethodOptions = field(default_factory=Methods)
     """Another method than ours; with --folds it is trained on the other folds."""
 
+    truths: TruthOptions = field(default_factory=Truths)
+    """How to read masks that leave a choice."""
+
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
 
@@ -72,13 +76,12 @@ class Diagnose:
 
     def run(self) -> int:
         """Diagnose all photos that have a truth; return the exit status."""
-        from skyline_viz.datasets import open_dataset  # noqa: PLC0415
         from skyline_viz.diagnosis import checked_tolerance  # noqa: PLC0415
 
         if self.folds and self.bank:
             raise UsageError("--folds trains filter banks of its own; leave out --bank.")
         checked_tolerance(self.tolerance)
-        dataset = open_dataset(self.dataset)
+        dataset = self.truths.open(self.dataset)
         items = with_truth(dataset)
         if self.photo and self.photo not in {item.name for item in items}:
             raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")

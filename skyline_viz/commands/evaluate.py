@@ -11,6 +11,7 @@ from skyline_viz.commands.inputs import output_folder, with_truth
 from skyline_viz.commands.messages import UsageError, counted, say, status_after, tell, tell_drawn
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Folder, OptionalFolder, Preset, make_detector
+from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
@@ -37,6 +38,9 @@ class Evaluate:
     methods: MethodOptions = field(default_factory=Methods)
     """Methods to compare; the detector with the settings below unless given."""
 
+    truths: TruthOptions = field(default_factory=Truths)
+    """How to read masks that leave a choice."""
+
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
 
@@ -54,13 +58,11 @@ class Evaluate:
 
     def run(self) -> int:
         """Evaluate all photos that have a truth; return the exit status."""
-        from skyline_viz.datasets import open_dataset  # noqa: PLC0415
-
         if self.folds and self.bank:
             raise UsageError("--folds trains filter banks of its own; leave out --bank.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
-        dataset = open_dataset(self.dataset)
+        dataset = self.truths.open(self.dataset)
         items = with_truth(dataset)
         if self.out:
             output_folder(self.out, dataset)

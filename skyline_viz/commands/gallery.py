@@ -34,6 +34,7 @@ from skyline_viz.commands.settings import (
     check_picture,
     make_detector,
 )
+from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig
 
 if TYPE_CHECKING:
@@ -81,6 +82,9 @@ class GalleryCommand:
     methods: MethodOptions = field(default_factory=Methods)
     """One method instead of ours, or two: those photos first on which they differ most."""
 
+    truths: TruthOptions = field(default_factory=Truths)
+    """How to read masks that leave a choice."""
+
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
 
@@ -99,7 +103,7 @@ class GalleryCommand:
         check_picture(self.screenshot)
         if self.screenshot and self.serve:
             raise UsageError("--screenshot and --serve exclude each other.")
-        inputs = collect(self.photos)
+        inputs = collect(self.photos, self.truths)
         output_folder(self.out, (one.item for one in inputs))
         method, *beside = self._methods()
         entries, failures = build(self.out, inputs, method, self.workers, *beside)

@@ -7,10 +7,9 @@ from itertools import count
 from pathlib import Path
 
 from skyline_viz.commands.messages import UsageError, counted, listed, say, say_last
-from skyline_viz.datasets import Dataset, DatasetItem, open_dataset
+from skyline_viz.commands.truth_options import Truths
+from skyline_viz.datasets import TRUTH_FOLDERS, Dataset, DatasetItem, truth_names
 from skyline_viz.names import shortened
-
-_TRUTH_FOLDERS = ("masks", "ground_truth")
 
 _LONGEST = 255 - len("-overlay.jpg")
 """Bytes of an output's name, without the longest ending that we put to it."""
@@ -27,10 +26,14 @@ class Input:
     """The photo, and its truth where there is one."""
 
 
-def collect(paths: Sequence[Path]) -> list[Input]:
+def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[Input]:
     """Photos of a command line: files as they are, folders as data sets; each file once.
 
     A file that does not exist is an input, too: it fails when its turn comes.
+
+    Args:
+        paths: Files and folders.
+        truths: How to read the truths of data sets.
 
     Raises:
         DatasetError: A folder holds no photo, or several data sets.
@@ -40,7 +43,7 @@ def collect(paths: Sequence[Path]) -> list[Input]:
     for path in paths:
         items: Iterable[DatasetItem] = [DatasetItem(path.stem, path)]
         if path.is_dir():
-            items = dataset = open_dataset(path)
+            items = dataset = (truths or Truths()).open(path)
             _tell(dataset)
         for item in items:
             first = found.setdefault(item.photo_path.resolve(), item).photo_path
@@ -110,7 +113,10 @@ def with_truth(dataset: Dataset) -> list[DatasetItem]:
     _tell(dataset)
     usable = [item for item in dataset if item.truth_path]
     if not usable:
-        raise UsageError(f"{dataset.name} holds no truth for any of its {len(dataset)} photos.")
+        raise UsageError(
+            f"{dataset.name} holds no truth for any of its {len(dataset)} photos; "
+            f"one is found as {truth_names(dataset.items[0])}."
+        )
     if without := [item.name for item in dataset if not item.truth_path]:
         say(f"left out, because there is no truth: {listed(without)}.")
     return usable
@@ -126,7 +132,7 @@ def output_folder(out: Path, items: Iterable[DatasetItem]) -> Path:
     target = out.resolve()
     for place in {item.photo_path.resolve().parent for item in items}:
         homes = [place, place.parent] if place.name.lower() == "images" else [place]
-        truths = target.name.lower() in _TRUTH_FOLDERS and target.parent in homes
+        truths = target.name.lower() in TRUTH_FOLDERS and target.parent in homes
         if target == place or truths:
             raise UsageError(
                 f"files written into {out} would be taken for the truth of the photos in {place}; "

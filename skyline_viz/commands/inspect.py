@@ -24,6 +24,7 @@ from skyline_viz.commands.settings import (
     config_of,
     make_detector,
 )
+from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.progress import ProgressBar
 
@@ -90,6 +91,9 @@ class Inspect:
     methods: MethodOptions = field(default_factory=Methods)
     """Other methods beside ours: their lines in named colours, a tab for each."""
 
+    truths: TruthOptions = field(default_factory=Truths)
+    """How to read masks that leave a choice."""
+
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
 
@@ -104,7 +108,7 @@ class Inspect:
         if not self.photos:
             raise UsageError("which photos? Name at least one photo or folder.")
         self._check_targets()
-        inputs = collect(self.photos)
+        inputs = collect(self.photos, self.truths)
         if self.truth and len(inputs) > 1:
             raise UsageError(f"--truth belongs to one photo, and there are {len(inputs)}.")
         if self.sweep and len(inputs) > 1:
@@ -257,11 +261,10 @@ class Inspect:
         self, one: Input, detector: Detector, failures: list[Failure]
     ) -> list[FilterBank]:
         """Filter banks of all sizes, learned from a data set without the photo."""
-        from skyline_viz.datasets import open_dataset  # noqa: PLC0415
         from skyline_viz.evaluation import train_sizes  # noqa: PLC0415
 
         assert self.sweep_training is not None
-        dataset = open_dataset(self.sweep_training)
+        dataset = self.truths.open(self.sweep_training)
         own = one.item.photo_path.resolve()
         others = [item for item in with_truth(dataset) if item.photo_path.resolve() != own]
         if not others:
@@ -276,7 +279,7 @@ class Inspect:
             return one.item.truth()
         from skyline_viz.truths import read_truth  # noqa: PLC0415
 
-        return read_truth(self.truth)
+        return read_truth(self.truth, sky=self.truths.sky, terrain=self.truths.terrain)
 
     def _lay_out(self, recording: rr.RecordingStream, contents: Contents | None) -> None:
         from skyline_viz.blueprints import detection_blueprint  # noqa: PLC0415

@@ -13,6 +13,7 @@ from skyline_viz.commands.inputs import output_folder, with_truth
 from skyline_viz.commands.messages import SOME_FAILED, UsageError, say, status_after, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import Folder, Switch
+from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.methods.names import MethodName
 
 if TYPE_CHECKING:
@@ -39,6 +40,9 @@ class Tables:
     methods: MethodOptions = field(default_factory=Methods)
     """The methods; all that are known unless given."""
 
+    truths: TruthOptions = field(default_factory=Truths)
+    """How to read masks that leave a choice."""
+
     folds: int = 2
     """Folds of the cross-validation, which trains on all folds but the one it tests."""
 
@@ -53,7 +57,6 @@ class Tables:
 
     def run(self) -> int:
         """Measure and write; return the exit status."""
-        from skyline_viz.datasets import open_dataset  # noqa: PLC0415
         from skyline_viz.methods.registry import make_method  # noqa: PLC0415
 
         if not self.datasets:
@@ -67,7 +70,7 @@ class Tables:
         ]
         sets = {}
         for folder in self.datasets:
-            dataset = open_dataset(folder)
+            dataset = self.truths.open(folder)
             if dataset.name in sets:
                 raise UsageError(f"two data sets are called {dataset.name}; rename a folder.")
             output_folder(self.out, dataset)

@@ -11,6 +11,7 @@ import tyro
 from skyline_viz.commands.inputs import output_folder, with_truth
 from skyline_viz.commands.messages import GOOD, UsageError, counted, status_after, tell
 from skyline_viz.commands.settings import Folder, Preset
+from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import TrainingConfig
 from skyline_viz.methods.names import MethodName
 
@@ -39,6 +40,9 @@ class Train:
     pretrained: Annotated[Path | None, tyro.conf.arg(metavar="FILE.pth")] = None
     """Pretrained VGG-16 weights for the FCNs and SegNet, which then have its full width."""
 
+    truths: TruthOptions = field(default_factory=Truths)
+    """How to read masks that leave a choice."""
+
     seed: int = 0
     """Seed of the negative samples; the same seed and photos give the same bank."""
 
@@ -53,9 +57,7 @@ class Train:
 
     def run(self) -> int:
         """Train on all photos that have a truth; return the exit status."""
-        from skyline_viz.datasets import open_dataset  # noqa: PLC0415
-
-        dataset = open_dataset(self.dataset)
+        dataset = self.truths.open(self.dataset)
         if self.out.is_dir():
             raise UsageError(f"{self.out} is a folder; name a file for the filter bank.")
         if self.seed < 0:

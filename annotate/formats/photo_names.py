@@ -1,0 +1,148 @@
+"""Which photo of a folder a label file means.
+
+Other programs write names with the folders of another machine, with other separators, in other
+case. A name is matched where only one photo can be meant, and only one name can mean it.
+"""
+
+from __future__ import annotations
+
+import unicodedata
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+
+from annotate.formats.common import safe_stems
+from skyline_viz.commands.inputs import output_names
+from skyline_viz.datasets import DatasetItem, bare_stem
+
+
+@dataclass(frozen=True)
+class Matched:
+    """Names in label files, and the photos they mean."""
+
+    photos: dict[str, str] = field(default_factory=dict)
+    """The photo of each name that has one."""
+
+    unclear: tuple[str, ...] = ()
+    """A sentence for each name that could mean several photos, or shares its photo."""
+
+    unknown: tuple[str, ...] = ()
+    """Names that mean no photo."""
+
+
+class PhotoNames:
+    """The names of the photos of a folder."""
+
+    def __init__(self, names: Iterable[str], below: Iterable[str] = ()) -> None:
+        """Take the names.
+
+        Args:
+            names: Those of the photos that labels may be for, with ``/`` between folders.
+            below: Those of all photos of the folder, by which exports name their files.
+        """
+        self.names = sorted(set(names))
+        self._known = frozenset(self.names)
+        safe = safe_stems({*self.names, *below})
+        self._spelled: tuple[defaultdict[str, set[str]], ...] = (
+            defaultdict(set),  # the names
+            defaultdict(set),  # what ``skyline-viz detect`` calls the outputs of the folder
+            defaultdict(set),  # what files of a photo are called by us
+            defaultdict(set),  # the same without folders
+        )
+        self._last: defaultdict[str, set[str]] = defaultdict(set)
+        outputs = _outputs(self.names)
+        for name in self.names:
+            path = PurePosixPath(name)
+            plain = name[: len(name) - len(path.suffix)]
+            ours = {safe[name], plain, plain.replace("/", "-"), name.replace("/", "-")}
+            ways = ({name}, outputs.get(name, set()), ours, {path.stem, path.name})
+            for known, spelled in zip(self._spelled, ways, strict=True):
+                for one in spelled:
+                    known[one].add(name)
+                    known[f"/{_folded(one)}"].add(name)  # no file name has this slash
+            self._last[_parts(name)[-1]].add(name)
+
+    def of_stems(self, stems: Iterable[str]) -> Matched:
+        """Photos of files that have a photo's name and another ending, or ``_mask`` besides."""
+        return _matched(stems, self._of_stem)
+
+    def of_references(self, references: Iterable[str]) -> Matched:
+        """Photos of the names that label files hold."""
+        return _matched(references, self._of_reference)
+
+    def _of_stem(self, stem: str) -> tuple[int, set[str]]:
+        spellings = [stem, f"/{_folded(stem)}", bare_stem(stem), f"/{_folded(bare_stem(stem))}"]
+        for rank, spelled in enumerate(spellings):
+            for step, known in enumerate(self._spelled):
+                if found := known.get(spelled):
+                    return 4 * rank + step, found
+        return 0, set()
+
+    def _of_reference(self, reference: str) -> tuple[int, set[str]]:
+        if reference in self._known:
+            return 0, {reference}
+        wanted = _parts(reference)
+        same = self._last.get(wanted[-1], set()) if wanted else set()
+        shared = {name: _shared(wanted, _parts(name)) for name in same}
+        best = max(shared.values(), default=0)
+        return 1, {name for name, count in shared.items() if count == best}
+
+
+def _outputs(names: Iterable[str]) -> dict[str, set[str]]:
+    """What ``skyline-viz detect`` calls its files for photos directly in the folder."""
+    flat = [PurePosixPath(name) for name in names if "/" not in name]
+    repeated = Counter(path.stem for path in flat)
+    items = [
+        DatasetItem(path.name if repeated[path.stem] > 1 else path.stem, Path(path))
+        for path in flat
+    ]
+    items.sort(key=lambda item: item.name)
+    called = output_names(items)
+    return {item.photo_path.name: {name} for item, name in zip(items, called, strict=True)}
+
+
+def _matched(names: Iterable[str], of: Callable[[str], tuple[int, set[str]]]) -> Matched:
+    """Match names; of two for one photo that which is spelled better counts, or neither."""
+    unclear, unknown = [], []
+    claims: defaultdict[str, list[tuple[int, str]]] = defaultdict(list)
+    for name in dict.fromkeys(names):
+        rank, found = of(name)
+        if len(found) > 1:
+            unclear.append(f"{name} could be any of {', '.join(sorted(found)[:4])}.")
+        elif found:
+            claims[next(iter(found))].append((rank, name))
+        else:
+            unknown.append(name)
+    photos = {}
+    for photo, claimed in claims.items():
+        claimed.sort()
+        best = [name for rank, name in claimed if rank == claimed[0][0]]
+        if len(best) == 1:
+            photos[best[0]] = photo
+            others = [name for _, name in claimed[1:]]
+            unknown += others
+        else:
+            unclear.append(f"{' and '.join(best[:4])} could all be {photo}.")
+    return Matched(photos, tuple(unclear), tuple(unknown))
+
+
+def _folded(name: str) -> str:
+    """A name without case, accents in one form, and without what XML cannot hold."""
+    plain = "".join(one if one >= " " or one in "\t\n" else "?" for one in name)
+    return unicodedata.normalize("NFC", plain.encode("utf-8", "replace").decode()).casefold()
+
+
+def _parts(name: str) -> list[str]:
+    """Folders and name of a path of any system, compared without case."""
+    return [part for part in _folded(name.replace("\\", "/")).split("/") if part not in ("", ".")]
+
+
+def _shared(one: list[str], other: list[str]) -> int:
+    """Number of parts in which two paths end alike."""
+    count = 0
+    for a, b in zip(reversed(one), reversed(other), strict=False):
+        if a != b:
+            break
+        count += 1
+    return count
