@@ -288,9 +288,9 @@ def damaged(source: Path) -> Trial:
     return Trial(
         "Bytes of the file of labels are damaged",
         "1 to 7 random bytes; `status`, each photo opened, `export`, `repair`, and `export` again; "
-        f"each line against the one that was made; {unrepaired} files were refused by `repair`, too",
+        f"each line against the one that was made; of {unrepaired} files nothing was saved",
         _DAMAGES,
-        f"{hit:,} of {_DAMAGES * _PHOTOS:,} labels were hit, and set aside or refused; besides: {bad}",
+        f"{hit:,} of {_DAMAGES * _PHOTOS:,} labels were hit, and set aside or refused; else {bad}",
     )
 
 
