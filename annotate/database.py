@@ -126,11 +126,11 @@ def connect(folder: Path) -> sqlite3.Connection:
     """
     path = folder / NAME
     exists = holds_something(path)
-    version = examine(path) if exists else 0
     if not exists and not os.access(folder, os.W_OK):
         raise StoreError(f"{folder} is read-only, and labels are kept in it.")
     if not os.access(path if path.exists() else folder, os.W_OK):
         raise StoreError(f"{path} is read-only, and labels are kept in it.")
+    version = examine(path) if exists else 0
     with sentences(path):
         connection = sqlite3.connect(
             path, isolation_level=None, check_same_thread=False, timeout=10

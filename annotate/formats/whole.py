@@ -137,9 +137,9 @@ def _label(said: object, file: Path, place: int) -> Label:
     shown = f"label {place}" + (f" ({name!r:.200})" if isinstance(name, str) else "")
     try:
         told = _Label.model_validate(said)
-        skyline = Skyline(
-            rows=np.array(told.skyline.rows, np.float32), visible=np.array(told.skyline.visible)
-        )
+        with np.errstate(over="ignore"):  # what is too large becomes infinite, and is refused
+            rows = np.array(told.skyline.rows, np.float64).astype(np.float32)
+        skyline = Skyline(rows=rows, visible=np.array(told.skyline.visible))
         told.name.encode()
         return Label(
             **told.model_dump(exclude={"skyline", "origin", "annotator", "tags", "operations"}),

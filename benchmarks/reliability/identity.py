@@ -283,14 +283,14 @@ def damaged(source: Path) -> Trial:
             wrong += sum(rows != before[stem] for stem, rows in left.items())
             saved += len(left)
             unrepaired += status != 0
-    readable = saved / (_DAMAGES * _PHOTOS)
+    hit = _DAMAGES * _PHOTOS - saved
+    bad = _counted(**{"other lines than those that were made": wrong, "tracebacks": errors})
     return Trial(
         "Bytes of the file of labels are damaged",
-        f"1 to 7 random bytes; `status`, each photo opened, `export`, `repair`, `export`: "
-        f"{readable:.1%} of the accepted labels left after it, and {unrepaired} files of which "
-        "nothing could be read were refused",
+        "1 to 7 random bytes; `status`, each photo opened, `export`, `repair`, and `export` again; "
+        f"each line against the one that was made; of {unrepaired} files nothing was saved",
         _DAMAGES,
-        _counted(**{"other lines than those that were made": wrong, "tracebacks": errors}),
+        f"{hit:,} of {_DAMAGES * _PHOTOS:,} labels were hit, and set aside or refused; else {bad}",
     )
 
 
