@@ -13,7 +13,17 @@ import platform
 import sys
 from pathlib import Path
 
-from benchmarks import accuracy, causes, filters, labelling, methods, recordings, robustness, speed
+from benchmarks import (
+    accuracy,
+    causes,
+    clicks,
+    filters,
+    labelling,
+    methods,
+    recordings,
+    robustness,
+    speed,
+)
 from skyline_viz import __version__
 from skyline_viz.files import write_text
 
@@ -37,7 +47,7 @@ def main() -> None:
         parts.append(methods.compared(web))
     parts += [accuracy.rendered(ROOT / "sample_data"), speed.measured(web, ROOT / "sample_data")]
     parts.append(recordings.measured(web, ROOT / "sample_data"))
-    parts += [labelling.measured(web, data), causes.confusion()]
+    parts += [labelling.measured(web, data), clicks.measured(), causes.confusion()]
     report = "\n\n".join(parts) + "\n"
     write_text(ROOT / "benchmarks" / "results.md", report)
     print(report)

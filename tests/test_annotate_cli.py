@@ -83,6 +83,31 @@ def test_labels_leave_and_come_back(folder, kind, tmp_path, capsys):
     assert "has been labelled by eve in pass 1 already" in capsys.readouterr().err
 
 
+def test_undone_statuses_leave_and_come_back(folder, tmp_path):
+    bench = workbench(folder)
+    session = bench.session(1)
+    session.apply(SetStatus(status="accepted"), -1)
+    session.apply(Straight(column=0, row=9, to_column=69, to_row=9), -1)
+    session.undo(-1)
+    assert session.state.status == "accepted"
+    kept = session.state
+    bench.close()
+    assert run("export", folder, "--format", "json", "--out", tmp_path / "out") == 0
+    file = tmp_path / "out" / "labels.json"
+    document = json.loads(file.read_text())
+    assert document["version"] == 2  # programs that would misread the undo refuse it
+    assert run("import", write_hills(tmp_path / "again"), file) == 0
+    store = Store(tmp_path / "again")
+    came = store.state(1)
+    assert (came.status, came.edits, came.steps) == ("accepted", kept.edits, kept.steps)
+    assert came.taken == kept.taken
+    store.close()
+    file.write_text(json.dumps({**document, "version": 1}))  # as programs before wrote it
+    assert run("import", write_hills(tmp_path / "third"), file) == 0
+    file.write_text(json.dumps({**document, "version": 3}))
+    assert run("import", write_hills(tmp_path / "fourth"), file) == 2
+
+
 def test_imported_labels_can_be_edited_on(folder, tmp_path):
     label(folder, row=11)
     assert run("export", folder, "--format", "json", "--out", tmp_path / "out") == 0

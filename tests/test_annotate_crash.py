@@ -13,6 +13,8 @@ from contextlib import closing, suppress
 import httpx
 
 from annotate.database import NAME
+from annotate.edits import Edits
+from annotate.log import State, folded
 from annotate.security import TOKEN_HEADER
 from annotate.store import Store
 from tests.labelling import asked, write_hills
@@ -34,10 +36,24 @@ def started(folder):
     raise AssertionError(process.stderr.read())
 
 
-def test_nothing_acknowledged_is_lost_when_the_server_is_killed(tmp_path):
+def drawn(chance):
+    """A change: its route, and what is sent."""
+    column, row = chance.randrange(70), chance.randrange(48)
+    kind = chance.choice(["anchor", "anchor", "tag", "status", "undo"])
+    if kind == "undo":
+        return "undo", asked()
+    operations = {
+        "anchor": {"kind": "anchor", "column": column, "row": row},
+        "tag": {"kind": "tag", "tag": f"t{column}", "on": bool(row % 2)},
+        "status": {"kind": "status", "status": ("accepted", "rejected")[row % 2]},
+    }
+    return "operations", asked(operation=operations[kind])
+
+
+def test_nothing_is_lost_or_done_twice_when_the_server_is_killed(tmp_path):
     folder = write_hills(tmp_path, count=2)
     chance = random.Random(7)
-    acknowledged = []
+    acknowledged, bodies, waiting = {}, {}, None
     while len(acknowledged) < OPERATIONS:
         process, client = started(folder)
         stop_after = chance.randint(20, 2 * OPERATIONS // KILLS)
@@ -47,33 +63,43 @@ def test_nothing_acknowledged_is_lost_when_the_server_is_killed(tmp_path):
                     moment = chance.uniform(0, 0.02)
                     killer = threading.Timer(moment, os.kill, (process.pid, signal.SIGKILL))
                     killer.start()
-                column, row = chance.randrange(70), chance.randrange(48)
-                kind = chance.choice(["anchor", "anchor", "tag", "undo"])
-                if kind == "undo":
-                    said = client.post("/api/photos/1/undo", json=asked())
-                else:
-                    operation = {"kind": "anchor", "column": column, "row": row}
-                    if kind == "tag":
-                        operation = {"kind": "tag", "tag": f"t{column}", "on": bool(row % 2)}
-                    body = asked(operation=operation)
-                    said = client.post("/api/photos/1/operations", json=body)
+                if waiting is None and bodies and chance.random() < 0.1:
+                    what, body = chance.choice(list(bodies.values()))  # once more
+                else:  # the one without an answer comes first
+                    what, body = waiting = waiting or drawn(chance)
+                said = client.post(f"/api/photos/1/{what}", json=body)
+                waiting = None
                 if said.status_code == 200:
-                    acknowledged.append((said.json()["revision"], said.json()["rows"]))
+                    found = said.json()
+                    first = acknowledged.setdefault(body["id"], (found["kept"], found["rows"]))
+                    assert first[0] == found["kept"]
+                    bodies[body["id"]] = what, body
+                else:
+                    assert said.json()["detail"] == "there is nothing to undo."
         killer.join()
         process.communicate(timeout=20)
         with closing(sqlite3.connect(folder / NAME)) as database:
-            kept = {row[0] for row in database.execute("SELECT id FROM operations")}
+            rows = "SELECT id, request FROM operations"
+            kept = {request: revision for revision, request in database.execute(rows)}
             assert database.execute("PRAGMA integrity_check").fetchone() == ("ok",)
-        assert {revision for revision, _ in acknowledged} <= kept
+        assert {
+            one: revision for one, (revision, _) in acknowledged.items()
+        }.items() <= kept.items()
+        unanswered = set(kept) - set(acknowledged)
+        assert unanswered <= {waiting[1]["id"] if waiting else None}
     process, client = started(folder)
     with client:
         found = client.get("/api/photos/1").json()
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=20)
+    with closing(sqlite3.connect(folder / NAME)) as database:
+        log = database.execute("SELECT id, at, kind, body FROM operations").fetchall()
     store = Store(folder)
+    assert store.state(1) == folded(State(Edits(48, 70)), log)
     assert found["rows"] == store.state(1).line.skyline.rows.tolist()
-    if found["revision"] == acknowledged[-1][0]:
-        assert found["rows"] == acknowledged[-1][1]
+    last, lines = max(acknowledged.values(), key=lambda one: one[0])
+    if found["revision"] == last:
+        assert found["rows"] == lines
     store.close()
 
 
