@@ -220,7 +220,8 @@ class Store:
             if before is not None:
                 return before
             state = add(database, asked, self._states.read(database, label), time(), line)
-        self._states.remember(label, state)
+        with self._lock:
+            self._states.remember(label, state)
         return state.revision
 
     def known(self, asked: Request) -> int | None:
