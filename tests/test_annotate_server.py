@@ -1,5 +1,6 @@
 """The labelling server through real requests: what it does, and whom it refuses."""
 
+import asyncio
 import io
 import zipfile
 
@@ -9,6 +10,7 @@ import pytest
 
 from annotate.database import StoreError
 from annotate.operations import Draw, SetAnchor, SetTag
+from annotate.security import PASS_HEADER, Guard
 from annotate.store import Store
 from skyline_viz.photo import read_photo
 from tests.labelling import TOKEN, asked, hills, served, workbench, write_hills
@@ -260,9 +262,25 @@ class TestRefusals:
             assert code_of_the_page or "token" in said.json()["detail"]
 
     def test_another_origin(self, client, method, route):
-        for origin in ("http://evil.example", "null", "https://127.0.0.1", "file://"):
+        here = str(client.base_url).removeprefix("http://").rstrip("/")
+        for origin in (
+            "http://evil.example",
+            "null",
+            "https://127.0.0.1",
+            "file://",
+            f"https://{here}",
+            f"ws://{here}",
+            here,
+        ):
             said = client.request(method, route, headers={"Origin": origin})
             assert said.status_code == 403
+
+    def test_another_pass(self, client, method, route):
+        shown = client.request(method, route).headers[PASS_HEADER]
+        said = client.request(method, route, headers={PASS_HEADER: "another"})
+        assert said.status_code == 412
+        assert said.headers[PASS_HEADER] == shown
+        assert client.request(method, route, headers={PASS_HEADER: shown}).status_code != 412
 
     def test_headers_of_every_answer(self, client, method, route):
         headers = client.request(method, route).headers
@@ -270,6 +288,21 @@ class TestRefusals:
         assert "default-src 'none'" in headers["content-security-policy"]
         assert "unsafe" not in headers["content-security-policy"]
         assert headers["cache-control"] == "no-store"
+
+
+def test_web_sockets_are_closed_before_anything_sees_them():
+    async def app(scope, receive, send):
+        raise AssertionError("it was let through")
+
+    said = []
+
+    async def send(message):
+        said.append(message)
+
+    guard = Guard(app, TOKEN, frozenset())
+    for kind in ("websocket", "something else"):
+        asyncio.run(guard({"type": kind, "path": "/api/photos"}, None, send))
+    assert [message["type"] for message in said] == ["websocket.close"] * 2
 
 
 @pytest.mark.parametrize("route", [route for method, route in ROUTES if method == "POST"])

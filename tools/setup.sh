@@ -79,4 +79,12 @@ if [ "$kind" = dev ] && [ "$(uname)" = Linux ] && ! browser >/dev/null 2>&1; the
         exit 1
     }
 fi
+# ... and the page's JavaScript under Node.
+if [ "$kind" = dev ] && ! command -v node >/dev/null 2>&1; then
+    apt_install nodejs || {
+        say "Node could not be installed; tests of the labelling page need it."
+        say "Install it (on Debian and Ubuntu: apt-get install nodejs), then run this again."
+        exit 1
+    }
+fi
 touch ".venv/.installed-$kind"

@@ -1,7 +1,7 @@
-"""The labelling page and its server: what was clicked is in the log, once, whatever happens between.
+"""The labelling page and its server: what was done is in the log, once, whatever happens between.
 
-A real page in Chromium works on a folder while its server is killed and started again, and while the
-network is away. What it clicked is compared with the logs of the store.
+A real page in Chromium works on a folder while its server is killed and started again, and while
+the network is away. What it did is compared with the log of the store.
 """
 
 import json
@@ -16,7 +16,6 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from benchmarks.reliability import Trial
 from tests.e2e.browser import Page, chromium
@@ -44,10 +43,7 @@ class Work:
 
 def measured() -> list[Trial]:
     """A thousand operations of a real page, and random schedules of its queue."""
-    with (
-        tempfile.TemporaryDirectory() as place,
-        chromium() as browser,
-    ):
+    with tempfile.TemporaryDirectory() as place, chromium() as browser:
         os.environ["XDG_STATE_HOME"] = place  # nothing is kept in the home of whoever runs this
         folder = write_hills(Path(place) / "alps", **SIZE)
         work = worked(browser, folder, operations=1000, kills=25, offline=25, seed=1)
@@ -65,9 +61,7 @@ def measured() -> list[Trial]:
     ]
 
 
-def worked(
-    browser: Any, folder: Path, operations: int, kills: int, offline: int, seed: int
-) -> Work:
+def worked(browser, folder, *, operations, kills, offline, seed) -> Work:
     """Let a page do operations while its server is killed and its network goes away."""
     chance = random.Random(seed)
     work, clicks = Work(clicked=operations), []

@@ -291,22 +291,6 @@ def test_what_is_not_acknowledged_is_said_and_sent_again(page):
     page.errors.clear()
 
 
-def test_two_tabs_on_one_photo_lose_nothing(page):
-    other = page.context.new_page()
-    other.goto(page.address)
-    other.locator("#name", has_text="a-peak.png").wait_for()
-    page.click(100, 80)
-    other.locator("#lines").focus()
-    other.keyboard.press("ArrowRight")
-    other.keyboard.press("Enter")
-    other.locator("#said", has_text="changed in another tab").wait_for()
-    other.locator("#saving[data-state=saved]").wait_for()
-    assert len(page.document()["anchors"]) == 2
-    other.keyboard.press("u")
-    other.wait_for_timeout(500)
-    assert page.document()["anchors"] == [[100, 80]]
-
-
 def test_a_sheet_is_worked_through_by_key(page):
     page.keys("w")
     cards = page.page.locator(".card")

@@ -145,6 +145,22 @@ def test_edits_of_a_photo_that_was_replaced_are_named(page, folder):
     assert page.page.locator("#lost").is_hidden()
 
 
+def test_two_tabs_on_one_photo_lose_nothing(page):
+    other = page.context.new_page()
+    other.goto(page.address)
+    other.locator("#name", has_text="hill-0.png").wait_for()
+    page.click(100, 80)
+    other.locator("#lines").focus()
+    other.keyboard.press("ArrowRight")
+    other.keyboard.press("Enter")
+    other.locator("#said", has_text="changed in another tab").wait_for()
+    other.locator("#saving[data-state=saved]").wait_for()
+    assert len(page.document()["anchors"]) == 2
+    other.keyboard.press("u")
+    other.wait_for_timeout(500)
+    assert page.document()["anchors"] == [[100, 80]]
+
+
 def test_two_tabs_do_not_take_from_one_another(page):
     page.page.route("**/operations", lambda route: route.abort())
     page.page.mouse.click(*page.at(60, 90))
