@@ -215,7 +215,6 @@ READ = {
     "no_end.png": png_without_end,
     "no_end.jpg": jpeg_without_end(),
     "no_end_progressive.jpg": jpeg_without_end(progressive=True),
-    "cut_last_percent.jpg": jpeg_cut(0.995),
 }
 """How to make a file that is read, by its name; the photo in it is that of `scene`."""
 
@@ -231,7 +230,6 @@ NOTED = {
     "no_end.png": "without its end marker",
     "no_end.jpg": "without its end marker",
     "no_end_progressive.jpg": "without its end marker",
-    "cut_last_percent.jpg": "rows are missing",
 }
 """What the note about some of them says."""
 

@@ -37,6 +37,17 @@ def test_the_same_line_in_every_file(tmp_path, name):
         assert notes == ()
 
 
+def test_a_jpeg_without_its_last_rows_is_read_with_a_note(tmp_path):
+    photo, rows = photo_files.scene(height=400)
+    path = tmp_path / "a.jpg"
+    photo_files.jpeg_cut(0.993)(path, photo)
+    read, (note,) = read_photo_with_notes(path)
+    assert "rows are missing" in note
+    assert np.abs(sv.Detector().detect(read).skyline.rows - rows).mean() < 3
+    assert np.abs(read[:380].astype(int) - photo[:380]).mean() < 6
+    assert (read[-1] == read[-8]).all()
+
+
 @pytest.mark.parametrize("name", ["16.png", "12.png", "10.tif", "12_deflate.tif", "linear.png"])
 def test_depths_come_back_as_they_were(tmp_path, name):
     photo_files.READ[name](tmp_path / name, PHOTO)
