@@ -1,12 +1,16 @@
-"""Pillow without its global pixel limit and its warnings, and libtiff without its own lines."""
+"""Pillow without its global pixel limit and its warnings, and libraries without their own lines."""
 
 import contextlib
 import ctypes
+import logging
 import threading
 import warnings
 from functools import cache
 
 from PIL import Image, _imaging
+
+for _library in ("PIL", "tifffile"):  # else they would write on stderr what we say in a sentence
+    logging.getLogger(_library).addHandler(logging.NullHandler())
 
 
 class QuietPillow:

@@ -5,7 +5,6 @@ page. tifffile finds the pages; whichever is the photo is put first, where every
 """
 
 import io
-import logging
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -73,7 +72,6 @@ def tiff_page(file: BinaryIO) -> TiffPage:
     """
     import tifffile  # noqa: PLC0415  # most photos are no TIFF
 
-    logging.getLogger("tifffile").addHandler(logging.NullHandler())  # it would speak on stderr
     file.seek(0)
     with tifffile.TiffFile(file) as tiff:
         main: list[Any] = [page for _, page in zip(range(_MOST_PAGES), tiff.pages, strict=False)]

@@ -27,7 +27,7 @@ from annotate.store import Store
 from benchmarks.reliability import Trial
 from skyline_viz.photo import PhotoError, read_photo
 from tests.labelling import workbench
-from tests.photo_files import replaced, with_comment, with_place, write_jpegs
+from tests.edited_photos import replaced, with_comment, with_place, write_jpegs
 
 _PHOTOS = 8
 _CHANGES = 250

@@ -50,8 +50,11 @@ def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[Input]:
             if first.absolute() != item.photo_path.absolute():
                 again.append(item.photo_path.name)
     if again:
-        links = "is another name of a photo" if len(again) == 1 else "are other names of photos"
-        say(f"{counted(len(again), 'file')} {links} that is done already: {listed(again)}.")
+        one = len(again) == 1
+        links = (
+            "is another name of a photo that is" if one else "are other names of photos that are"
+        )
+        say(f"{counted(len(again), 'file')} {links} done already: {listed(again)}.")
     items = list(found.values())
     plain = [_plain_name(item) for item in items]
     names = output_names(items)

@@ -26,6 +26,7 @@ from skyline_viz.commands.messages import (
     say_what_is_left,
     tell,
 )
+from skyline_viz.names import printable
 from skyline_viz.notes import heard_by, once
 
 
@@ -89,7 +90,11 @@ def parsed(program: str, about: str, commands: Any, arguments: Sequence[str]) ->
     except SystemExit as leaving:
         if refusal := _refusal_behind(leaving):
             raise refusal from None
-        sys.stderr.write(said.getvalue())
+        harmless = list(map(printable, arguments))
+        if harmless != list(arguments):  # say it again, without what a terminal would obey
+            parsed(program, about, commands, harmless)
+        else:
+            sys.stderr.write(said.getvalue())
         raise
     return command
 
