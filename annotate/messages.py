@@ -228,12 +228,6 @@ class Sheet(BaseModel):
     pages: int
 
 
-class Viewer(BaseModel):
-    """Where a viewer is."""
-
-    url: str
-
-
 class Learning(BaseModel):
     """How far learning from the labels is."""
 

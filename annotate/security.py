@@ -15,6 +15,8 @@ from typing import Any, TypeAlias
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import JSONResponse
 
+from skyline_viz.web_viewer import POLICY as VIEWER_POLICY
+
 Scope: TypeAlias = MutableMapping[str, Any]
 Message: TypeAlias = MutableMapping[str, Any]
 Receive: TypeAlias = Callable[[], Awaitable[Message]]
@@ -40,6 +42,7 @@ _HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
+_VIEWER = "/static/stages/"  # the page with Rerun's viewer, which is WebAssembly
 _CHANGING = ("POST", "PUT", "PATCH", "DELETE")
 
 
@@ -67,6 +70,8 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 for name, value in _HEADERS.items():
                     headers[name] = value
+                if scope["path"].startswith(_VIEWER):
+                    headers["Content-Security-Policy"] = VIEWER_POLICY
             await send(message)
 
         if refusal := self._refusal(scope):

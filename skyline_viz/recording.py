@@ -51,6 +51,9 @@ cheapest edge pixels of each column, and of those on the path and on the truth.
 of every edge pixel, to four digits on hovering, and exact as numbers.
 """
 
+FULL_MEGAPIXELS = 4.0
+"""Million pixels up to which photos are kept in full: some 35 bytes a pixel, so 140 MB."""
+
 _BATCH = 1 << 18  # bytes: less than a map
 _RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
 
@@ -85,6 +88,15 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
             recording.disconnect()  # writes the footer, without which the file is not whole
     if interrupted:
         raise interrupted
+
+
+def fidelity_of(pixels: int, full_megapixels: float = FULL_MEGAPIXELS) -> Fidelity:
+    """How much to keep of photos of so many pixels in all.
+
+    >>> fidelity_of(1388 * 519), fidelity_of(20000 * 2000)
+    ('full', 'lean')
+    """
+    return "full" if pixels <= full_megapixels * 1e6 else "lean"
 
 
 def log_detection(

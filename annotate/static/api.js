@@ -53,3 +53,9 @@ export async function blob(path, signal) {
 export async function picture(path, signal) {
   return createImageBitmap(await blob(path, signal));
 }
+
+/** Address of a page with the stages of a photo; behind its `#`, which no request carries, stands the token. */
+export function stagesAddress(photo) {
+  const asked = new URLSearchParams({ recording: `../../api/photos/${photo}/recording`, token });
+  return new URL(`static/stages/#${asked}`, location.href).href;
+}

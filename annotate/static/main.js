@@ -1,6 +1,6 @@
 /** Puts the page together: what buttons and keys do. */
 
-import { get, picture, post } from "./api.js";
+import { get, picture, post, stagesAddress } from "./api.js";
 import * as dialogs from "./dialogs.js";
 import { keyTable, listen } from "./keys.js";
 import { Labelling } from "./labelling.js";
@@ -224,17 +224,15 @@ const act = {
     labelling.say(`Overlay: ${find("overlay").value}.`);
   },
   async stages() {
-    labelling.say("Opening the stages in Rerun...");
-    const tab = open("", "_blank");
-    try {
-      await labelling.settled();
-      const { url } = await post(`api/photos/${labelling.document.id}/rerun`, {});
-      if (tab) tab.location = url;
-      labelling.say(tab ? "The stages are in another tab." : `The browser keeps tabs from opening; the stages are at ${url}`);
-    } catch (error) {
-      tab?.close();
-      labelling.say(error.message, true);
+    if (labelling.document.blind) {
+      labelling.say("The photo is labelled blind, so nothing of the detector is shown.", true);
+      return;
     }
+    const tab = open("", "_blank"); // now: later the browser would not let it open
+    await labelling.settled();
+    const address = stagesAddress(labelling.document.id);
+    if (tab) tab.location = address;
+    labelling.say(tab ? "The stages are in another tab." : "The browser keeps tabs from opening; allow them for this page.", !tab);
   },
   sheet: () => sheet.show(),
   list() {

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from threading import Event
 from typing import TYPE_CHECKING, Annotated
 
 import tyro
@@ -300,9 +301,11 @@ class Inspect:
         elif self.connect:
             viewer.send(files, self.connect)
         elif self.serve:
-            process, address = viewer.serve(files)
-            print(f"Open {address} in a browser. Ctrl-C ends.", flush=True)
-            viewer.wait_for(process)
+            from skyline_viz.web_viewer import served  # noqa: PLC0415
+
+            with served(files) as address, suppress(KeyboardInterrupt):
+                print(f"Open {address} in a browser. Ctrl-C ends.", flush=True)
+                Event().wait()
         else:
             viewer.wait_for(viewer.open_viewer(files))
 
