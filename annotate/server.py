@@ -50,6 +50,7 @@ def make_app(bench: Workbench, token: str, hosts: frozenset[str]) -> Guard:
         token: What the page has to know.
         hosts: Host names with ports under which the server may be called.
     """
+
     @asynccontextmanager
     async def alive(_: FastAPI) -> AsyncIterator[None]:
         yield

@@ -26,14 +26,16 @@ def stages(detection: Detection, line: Skyline, name: str) -> bytes:
     with _one_at_a_time:
         recording = rr.RecordingStream(APPLICATION, recording_id=name)
         recording.set_log_time_enabled(False)
-        stream = recording.binary_stream()
+        stream = rr.binary_stream(recording)
         try:
             recording.send_recording_name(name)
             fidelity = fidelity_of(detection.edges.size)
             log_detection(recording, detection, line, name=name, fidelity=fidelity)
             ours = isinstance(detection, FilterDetection)
+            height, width = detection.edges.shape
             contents = Contents(
-                *detection.edges.shape,
+                height,
+                width,
                 truth=True,
                 filters=ours,
                 maps=tuple(detection.maps),

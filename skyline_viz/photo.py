@@ -13,14 +13,12 @@ from PIL import ExifTags, Image, UnidentifiedImageError
 
 from skyline_viz.arrays import U8
 from skyline_viz.files import replacing
+from skyline_viz.memory import photo_limit
 
 PHOTO_SUFFIXES = frozenset(
     {".bmp", ".jpeg", ".jpg", ".pgm", ".png", ".ppm", ".tif", ".tiff", ".webp"}
 )
 """File name endings (lower case) that are taken for photographs when a folder is searched."""
-
-MAX_MEGAPIXELS = 150.0
-"""Default limit on a photo's size, in million pixels, against decompression bombs."""
 
 MIN_SIDE = 8
 """Smallest height and width of a photo file, in pixels; below it there is no room for a patch."""
@@ -43,7 +41,7 @@ class PhotoError(Exception):
     """A photograph cannot be read; the message is one sentence naming the file and the reason."""
 
 
-def read_photo(path: str | os.PathLike[str], *, max_megapixels: float = MAX_MEGAPIXELS) -> U8:
+def read_photo(path: str | os.PathLike[str], *, max_megapixels: float | None = None) -> U8:
     """Read one photograph.
 
     JPEG, PNG, BMP, PGM/PPM, TIFF and WebP, told by content and not by name. EXIF orientation is
@@ -52,7 +50,8 @@ def read_photo(path: str | os.PathLike[str], *, max_megapixels: float = MAX_MEGA
 
     Args:
         path: The file.
-        max_megapixels: Larger photos are refused before they are decoded.
+        max_megapixels: Larger photos are refused before they are decoded; None for the limit of
+            this process, which is 150 unless a command has changed it.
 
     Returns:
         The photo, ``(H, W, 3)`` uint8 RGB.
@@ -62,6 +61,8 @@ def read_photo(path: str | os.PathLike[str], *, max_megapixels: float = MAX_MEGA
     """
     with _opened(path) as image:
         width, height = image.size
+        if max_megapixels is None:
+            max_megapixels = photo_limit()
         if width * height > max_megapixels * 1e6:
             raise PhotoError(
                 f"{path} has {width}x{height} pixels, over the limit of "

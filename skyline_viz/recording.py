@@ -32,6 +32,7 @@ from skyline_viz.column_views import TRUTH_RADIUS, log_columns, log_line
 from skyline_viz.detection import Detection
 from skyline_viz.detector import FilterDetection
 from skyline_viz.files import replacing
+from skyline_viz.memory import FULL_MEGAPIXELS
 from skyline_viz.overlay import PATH, TRUTH
 from skyline_viz.report import report
 from skyline_viz.skyline import Skyline, SkylineError
@@ -50,9 +51,6 @@ cheapest edge pixels of each column, and of those on the path and on the truth.
 *full*, for a photo: the photo without loss; tensor, cost and detour of every pixel, score and bin
 of every edge pixel, to four digits on hovering, and exact as numbers.
 """
-
-FULL_MEGAPIXELS = 4.0
-"""Million pixels up to which photos are kept in full: some 35 bytes a pixel, so 140 MB."""
 
 _BATCH = 1 << 18  # bytes: less than a map
 _RLE = cv2.IMWRITE_PNG_STRATEGY_RLE

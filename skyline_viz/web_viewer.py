@@ -84,7 +84,7 @@ def viewer_program() -> dict[str, bytes]:
                 with urllib.request.urlopen(f"{address}/{name}", timeout=30) as answer:  # noqa: S310
                     found[name] = answer.read()
         except OSError as error:
-            raise ViewerError(f"the viewer's program for browsers cannot be had: {error}.") from error
+            raise ViewerError(f"the viewer's program cannot be fetched: {error}.") from error
     return found
 
 
@@ -126,6 +126,7 @@ class _RecordingServer(ThreadingHTTPServer):
         super().__init__((LOOPBACK, 0), _Handler)
         port = self.server_address[1]
         self.hosts = {f"{name}:{port}" for name in (LOOPBACK, "localhost", "[::1]")}
+        self.origins = {f"http://{host}" for host in self.hosts}
         self.root = f"/{secrets.token_urlsafe(24)}/"
         self.recordings = {f"{place}/{quote(one.name)}": one for place, one in enumerate(files)}
         self.address = f"http://{LOOPBACK}:{port}{self.root}#{fragment(list(self.recordings))}"
@@ -145,7 +146,7 @@ class _Handler(BaseHTTPRequestHandler):
         origin = self.headers.get("origin")
         if len(hosts) != 1 or hosts[0].lower() not in self.server.hosts:
             self._refuse(HTTPStatus.MISDIRECTED_REQUEST, "this server is not called by that name.")
-        elif origin is not None and origin.lower() not in {f"http://{h}" for h in self.server.hosts}:
+        elif origin is not None and origin.lower() not in self.server.origins:
             self._refuse(HTTPStatus.FORBIDDEN, "another website may not call this server.")
         else:
             self._answer(self.path.partition("?")[0])

@@ -24,6 +24,7 @@ from skyline_viz.commands.messages import (
     USAGE,
     say,
 )
+from skyline_viz.commands.sizes import limit
 
 
 class Command(Protocol):
@@ -96,6 +97,8 @@ def _run(program: str, parse: Callable[[list[str]], Command], arguments: list[st
         command = parse(arguments)
     except SystemExit as leaving:  # help, or a command line that makes no sense
         return leaving.code if isinstance(leaving.code, int) else USAGE
+    if (megapixels := getattr(command, "max_megapixels", None)) is not None:
+        limit(megapixels)
     return command.run()
 
 
