@@ -14,6 +14,7 @@ from annotate.session import Session
 from annotate.store import Card
 from annotate.workbench import Progress
 from skyline_viz.arrays import F64, Int
+from skyline_viz.memory import photo_limit
 
 Revision = Annotated[int, Field(ge=-1, le=2**62)]
 """The revision that a request was made on; -1 for any."""
@@ -60,6 +61,9 @@ class ShownPhoto(BaseModel):
     margin: float | None
     blind: bool
     missing: bool
+    too_large: bool
+    """Whether it is over the limit, and will not be read."""
+
     seconds: float
 
     @classmethod
@@ -76,6 +80,7 @@ class ShownPhoto(BaseModel):
             margin=finite(card.margin),
             blind=card.blind,
             missing=missing,
+            too_large=photo.height * photo.width > photo_limit() * 1e6,
             seconds=card.seconds,
         )
 

@@ -11,14 +11,17 @@ from pathlib import Path
 import numpy as np
 from PIL import ExifTags, Image, UnidentifiedImageError
 
+from skyline_viz import memory
 from skyline_viz.arrays import U8
 from skyline_viz.files import replacing
-from skyline_viz.memory import photo_limit
 
 PHOTO_SUFFIXES = frozenset(
     {".bmp", ".jpeg", ".jpg", ".pgm", ".png", ".ppm", ".tif", ".tiff", ".webp"}
 )
 """File name endings (lower case) that are taken for photographs when a folder is searched."""
+
+MAX_MEGAPIXELS = memory.MAX_MEGAPIXELS
+"""Default limit on a photo's size, in million pixels, against decompression bombs."""
 
 MIN_SIDE = 8
 """Smallest height and width of a photo file, in pixels; below it there is no room for a patch."""
@@ -62,7 +65,7 @@ def read_photo(path: str | os.PathLike[str], *, max_megapixels: float | None = N
     with _opened(path) as image:
         width, height = image.size
         if max_megapixels is None:
-            max_megapixels = photo_limit()
+            max_megapixels = memory.photo_limit()
         if width * height > max_megapixels * 1e6:
             raise PhotoError(
                 f"{path} has {width}x{height} pixels, over the limit of "

@@ -16,7 +16,9 @@ from annotate.commands.options import PROGRAM, Annotator, PhotoFolder, check_fol
 from skyline_viz.commands.messages import GOOD, UsageError, counted, say
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detector
+from skyline_viz.commands.sizes import MaxMegapixels, say_too_large
 from skyline_viz.config import DetectorConfig
+from skyline_viz.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
     from annotate.workbench import Workbench
@@ -67,6 +69,9 @@ class Open:
 
     no_browser: Switch = False
     """Print the address, and do not open it."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     config: DetectorConfig = field(default_factory=DetectorConfig)
     """Single settings of the detector."""
@@ -123,6 +128,9 @@ class Open:
             raise UsageError(f"{self.folder} holds no photograph.")
         for problem in bench.store.problems:
             say(problem, PROGRAM)
+        most = self.max_megapixels * 1e6
+        every = bench.photos.values()
+        say_too_large([one.name for one in every if one.height * one.width > most], PROGRAM)
         if self.order == "margin":
             propose_all(bench)
         progress = bench.progress()

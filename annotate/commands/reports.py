@@ -13,6 +13,8 @@ from annotate.commands.options import PhotoFolder, opened
 from annotate.labels import STATUSES
 from skyline_viz.commands.messages import GOOD, UsageError, counted
 from skyline_viz.commands.settings import check_picture
+from skyline_viz.commands.sizes import MaxMegapixels
+from skyline_viz.memory import MAX_MEGAPIXELS
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,9 @@ class Agreement:
 
     picture: Annotated[Path | None, tyro.conf.arg(metavar="FILE.png")] = None
     """Where to draw the photos that differ most."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     def run(self) -> int:
         """Print how far they agree; return the exit status."""

@@ -22,6 +22,8 @@ from annotate.commands.options import (
 )
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say
 from skyline_viz.commands.settings import OptionalFolder
+from skyline_viz.commands.sizes import MaxMegapixels
+from skyline_viz.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
     from annotate.formats import Imported
@@ -48,6 +50,9 @@ class Export:
 
     pass_number: int = 0
     """Which pass, where there are several."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     def run(self) -> int:
         """Export; return the exit status."""
@@ -89,6 +94,9 @@ class Import:
 
     status: Literal["needs review", "accepted"] = "needs review"
     """Status of labels whose format does not carry one."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     def run(self) -> int:
         """Import; return the exit status."""

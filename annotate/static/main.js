@@ -377,7 +377,7 @@ act.tool("a");
 find("said").textContent = "";
 try {
   await labelling.load();
-  const first = labelling.photos.find((one) => ["to do", "in progress"].includes(one.status) && !one.missing) ?? labelling.photos[0];
+  const first = labelling.photos.find((one) => ["to do", "in progress"].includes(one.status) && !one.missing && !one.too_large) ?? labelling.photos[0];
   if (first) await labelling.open(first.id);
   dialogs.welcome();
 } catch (error) {
