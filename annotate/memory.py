@@ -102,9 +102,10 @@ class OpenPhotos(Generic[Value]):
             return future, True
 
     def show(self, photo: int) -> None:
-        """From now on this photo is the one that stays."""
+        """From now on this photo is the one that stays, and the one before may be closed."""
         with self._lock:
             self._shown = photo
+            self._make_room(photo)
 
     def fits(self, size: int) -> bool:
         """Whether a photo of so many bytes fits beside the one that is shown."""
