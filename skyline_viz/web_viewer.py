@@ -20,7 +20,7 @@ from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any, BinaryIO
-from urllib.parse import quote, urlencode
+from urllib.parse import urlencode
 
 from skyline_viz import viewer
 from skyline_viz.viewer import LOOPBACK, ViewerError
@@ -128,7 +128,7 @@ class _RecordingServer(ThreadingHTTPServer):
         self.hosts = {f"{name}:{port}" for name in (LOOPBACK, "localhost", "[::1]")}
         self.origins = {f"http://{host}" for host in self.hosts}
         self.root = f"/{secrets.token_urlsafe(24)}/"
-        self.recordings = {f"{place}/{quote(one.name)}": one for place, one in enumerate(files)}
+        self.recordings = {f"{place}.rrd": one for place, one in enumerate(files)}
         self.address = f"http://{LOOPBACK}:{port}{self.root}#{fragment(list(self.recordings))}"
 
     def handle_error(self, *_: object) -> None:
