@@ -27,8 +27,8 @@ forbids (4), and the two tables of the live wire (8 each)."""
 BLIND = 3
 """Bytes a pixel of an open photo that is labelled blind: its pixels."""
 
-OPENING = 40
-"""Bytes a pixel at the worst moment of opening one: measured up to 40, on noise, where every third
+OPENING = 32
+"""Bytes a pixel at the worst moment of opening one: measured up to 32, on noise, where every third
 pixel is an edge."""
 
 Value = TypeVar("Value")

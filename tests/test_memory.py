@@ -8,13 +8,14 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from annotate import memory as open_photos
 from annotate import workbench as benches
+from annotate.cli import main as label
 from annotate.memory import OPEN_AT_MOST, SESSION, OpenPhotos, SmallPictures
 from skyline_viz import memory
 from skyline_viz.cli import main
 from skyline_viz.commands import sizes
 from skyline_viz.detector import Detector
 from skyline_viz.photo import PhotoError, read_photo, write_photo
-from tests.labelling import hills, workbench, write_hills
+from tests.labelling import hills, served, workbench, write_hills
 
 BUDGET = 1000
 
@@ -302,3 +303,20 @@ def test_several_photos_share_the_pixels(photos, tmp_path, capsys):
     assert "maps are kept lean" in capsys.readouterr().err
     assert main([*together, "--split"]) == 0
     assert "maps are kept lean" not in capsys.readouterr().err
+
+
+def test_the_list_and_the_start_of_labelling_say_what_is_too_large(photos, monkeypatch, capsys):
+    monkeypatch.setattr("annotate.commands.open.serve", lambda bench, *_, **__: bench.close())
+    words = ["open", str(photos), "--annotator", "ann", "--max-megapixels", "0.005"]
+    try:
+        assert label(words) == 0
+        said = capsys.readouterr().err
+        assert "large.png is over the limit of 0.005 megapixels, and will not be read" in said
+        with served(photos) as client:
+            listed = client.get("/api/photos").json()["photos"]
+            found = {one["name"]: one["too_large"] for one in listed}
+            answers = [client.get(f"/api/photos/{one['id']}").status_code for one in listed]
+    finally:
+        memory.limit_photos(memory.MAX_MEGAPIXELS)
+    assert found == {"large.png": True, "small.png": False}
+    assert answers == [410 if one["too_large"] else 200 for one in listed]
