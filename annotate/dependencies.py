@@ -7,7 +7,6 @@ from typing import Annotated, TypeAlias
 from fastapi import Depends, Path, Request
 
 from annotate.learning import Learner
-from annotate.stage_viewer import StageViewer
 from annotate.workbench import Workbench
 
 
@@ -21,19 +20,11 @@ def _learner(request: Request) -> Learner:
     return learner
 
 
-def _viewer(request: Request) -> StageViewer:
-    viewer: StageViewer = request.app.state.viewer
-    return viewer
-
-
 Bench: TypeAlias = Annotated[Workbench, Depends(_bench)]
 """The workbench of the server."""
 
 TheLearner: TypeAlias = Annotated[Learner, Depends(_learner)]
 """What learns from the labels."""
-
-Stages: TypeAlias = Annotated[StageViewer, Depends(_viewer)]
-"""What shows stages in Rerun."""
 
 PhotoId: TypeAlias = Annotated[int, Path(ge=1, le=2**62)]
 """A photo, never by its path."""

@@ -77,11 +77,14 @@ class LiveWire:
             forward = np.zeros((0, self.height))
         else:
             detection = detector.detect(photo)
-            cost, forward = detection.cost, np.array(detection.forward.T)
+            cost, forward = detection.cost, detection.forward.T
             self.proposal = detection.skyline
             self._delta = min(detection.delta, self.height - 1)
             self._link_weight = float(detection.link_weight)
+            del detection  # its other planes, before these two are copied
         self._cost: F32 = np.ascontiguousarray(cost.T)
+        del cost
+        forward = np.array(forward)
         self._allowed = self._cost  # a copy with infinite costs where the brush forbids
         self._reach = np.full(max(len(self._cost) - 1, 0), self._delta, np.int32)
         self._forward, self._backward = forward, np.empty_like(forward)

@@ -15,6 +15,7 @@ from annotate.session import Session
 from annotate.store import Card
 from annotate.workbench import Progress
 from skyline_viz.arrays import F64, Int
+from skyline_viz.memory import photo_limit
 
 Revision = Annotated[int, Field(ge=-1, le=2**62)]
 """The revision that a request was made on; -1 for any."""
@@ -67,6 +68,9 @@ class ShownPhoto(BaseModel):
     margin: float | None
     blind: bool
     missing: bool
+    too_large: bool
+    """Whether it is over the limit, and will not be read."""
+
     seconds: float
     problem: str
     """Why its label cannot be read; empty where it can."""
@@ -85,6 +89,7 @@ class ShownPhoto(BaseModel):
             margin=finite(card.margin),
             blind=card.blind,
             missing=missing,
+            too_large=photo.height * photo.width > photo_limit() * 1e6,
             seconds=card.seconds,
             problem=card.problem,
         )
@@ -236,12 +241,6 @@ class Sheet(BaseModel):
 
     photos: list[ShownPhoto]
     pages: int
-
-
-class Viewer(BaseModel):
-    """Where a viewer is."""
-
-    url: str
 
 
 class Learning(BaseModel):

@@ -4,22 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from fastapi import APIRouter, HTTPException
+from fastapi import APIRouter, HTTPException, Response
 
-from annotate.dependencies import Bench, Column, PhotoId, Stages
+from annotate.dependencies import Bench, Column, PhotoId
 from annotate.messages import (
     Alternatives,
     Apply,
     Document,
     Margins,
-    Nothing,
     Part,
     Pixel,
     ShownAlternative,
     Step,
-    Viewer,
 )
 from annotate.session import Session
+from annotate.stage_viewer import stages
 from annotate.store import StaleError
 from annotate.workbench import Workbench
 from skyline_viz.photo import PhotoError
@@ -89,15 +88,16 @@ def redo(bench: Bench, photo: PhotoId, asked: Step) -> Document:
     return _change(bench, photo, lambda session: session.redo(asked.revision, asked.id))
 
 
-@router.post("/rerun")
-def rerun(bench: Bench, stages: Stages, photo: PhotoId, _: Nothing) -> Viewer:
-    """Show the stages of a photo in Rerun, with the current line as truth."""
+@router.get("/recording", response_class=Response)
+def recording(bench: Bench, photo: PhotoId) -> Response:
+    """The stages of a photo for Rerun's viewer, with the line as it is now as truth."""
     session = bench.session(photo)
     if session.blind:
         raise HTTPException(403, BLIND)
     with session.lock:
         line = session.wire.skyline
-    return Viewer(url=stages.show(bench.detection(photo), line, session.photo.name))
+    data = stages(bench.detection(photo), line, session.photo.name)
+    return Response(data, media_type="application/octet-stream")
 
 
 def _change(bench: Workbench, photo: int, how: Callable[[Session], int]) -> Document:

@@ -17,6 +17,8 @@ from typing import Any, TypeAlias
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import JSONResponse
 
+from skyline_viz.web_viewer import POLICY as VIEWER_POLICY
+
 Scope: TypeAlias = MutableMapping[str, Any]
 Message: TypeAlias = MutableMapping[str, Any]
 Receive: TypeAlias = Callable[[], Awaitable[Message]]
@@ -45,6 +47,7 @@ _HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
+_VIEWER = "/static/stages/"  # the page with Rerun's viewer, which is WebAssembly
 _CHANGING = ("POST", "PUT", "PATCH", "DELETE")
 
 
@@ -77,6 +80,8 @@ class Guard:
                 for name, value in _HEADERS.items():
                     headers[name] = value
                 headers[PASS_HEADER] = self._shown
+                if scope["path"].startswith(_VIEWER):
+                    headers["Content-Security-Policy"] = VIEWER_POLICY
             await send(message)
 
         if refusal := self._refusal(scope):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
-from fastapi.responses import FileResponse, JSONResponse
+from fastapi.responses import FileResponse, JSONResponse, Response
 from fastapi.staticfiles import StaticFiles
 from starlette.exceptions import HTTPException
 
@@ -21,13 +21,13 @@ from annotate.learning import Learner
 from annotate.lines import LineError
 from annotate.log import LogError
 from annotate.security import Guard
-from annotate.stage_viewer import StageViewer
 from annotate.store import StaleError
 from annotate.workbench import UnknownPhotoError, Workbench
 from skyline_viz.constraints import PathError
 from skyline_viz.methods.protocol import MethodError
 from skyline_viz.photo import PhotoError
 from skyline_viz.viewer import ViewerError
+from skyline_viz.web_viewer import page_file
 
 STATIC = Path(__file__).with_name("static")
 """The page."""
@@ -55,12 +55,10 @@ def make_app(bench: Workbench, token: str, hosts: frozenset[str]) -> Guard:
         token: What the page has to know.
         hosts: Host names with ports under which the server may be called.
     """
-    viewer = StageViewer()
 
     @asynccontextmanager
     async def alive(_: FastAPI) -> AsyncIterator[None]:
         yield
-        viewer.close()
         bench.close()
 
     app = FastAPI(
@@ -70,11 +68,12 @@ def make_app(bench: Workbench, token: str, hosts: frozenset[str]) -> Guard:
         redoc_url=None,
         openapi_url="/api/openapi.json",
     )
-    app.state.bench, app.state.viewer, app.state.learner = bench, viewer, Learner(bench)
+    app.state.bench, app.state.learner = bench, Learner(bench)
     for kind, status in _STATUSES.items():
         app.add_exception_handler(kind, _sentence(status))
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _refused)
+    app.add_api_route("/static/stages/{name:path}", _viewer_page, include_in_schema=False)
     app.mount("/static", StaticFiles(directory=STATIC), "static")
     app.add_api_route("/", _page, include_in_schema=False)
     for routes in (folder_routes, photo_routes, picture_routes):
@@ -85,6 +84,13 @@ def make_app(bench: Workbench, token: str, hosts: frozenset[str]) -> Guard:
 
 def _page() -> FileResponse:
     return FileResponse(STATIC / "index.html", media_type="text/html; charset=utf-8")
+
+
+def _viewer_page(name: str) -> Response:
+    found = page_file(name)
+    if found is None:
+        raise HTTPException(404, "there is no such file.")
+    return Response(found[0], media_type=found[1])
 
 
 def _sentence(status: int) -> Callable[[Request, Exception], JSONResponse]:

@@ -1,53 +1,47 @@
-"""The stages of a photo in Rerun's viewer, in a tab of its own beside the page."""
+"""The stages of a photo as a recording for Rerun's viewer, which the page opens in another tab."""
 
 from __future__ import annotations
 
-import subprocess
-import tempfile
 import threading
-from pathlib import Path
 
+import rerun as rr
+
+from skyline_viz.blueprints import Contents, detection_blueprint
 from skyline_viz.detection import Detection
-from skyline_viz.recording import log_detection, new_recording
+from skyline_viz.detector import FilterDetection
+from skyline_viz.recording import APPLICATION, fidelity_of, log_detection
 from skyline_viz.skyline import Skyline
-from skyline_viz.viewer import serve
+
+_one_at_a_time = threading.Lock()  # a recording takes as much memory as its photo is large
 
 
-class StageViewer:
-    """Serves the stages of one photo at a time to a browser on this machine."""
+def stages(detection: Detection, line: Skyline, name: str) -> bytes:
+    """Record the stages of a photo: in memory, so that nothing is left on the disk.
 
-    def __init__(self) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="skyline-stages-")
-        self._process: subprocess.Popen[bytes] | None = None
-        self._lock = threading.Lock()
-
-    def show(self, detection: Detection, line: Skyline, name: str) -> str:
-        """Record the stages, serve them, and return the address to open.
-
-        Args:
-            detection: What the detector saw.
-            line: The line as it is labelled now, which counts as the truth.
-            name: Name of the photo.
-
-        Raises:
-            ViewerError: The viewer cannot be started.
-        """
-        with self._lock:
-            self._stop()
-            file = Path(self._folder.name) / "stages.rrd"
-            with new_recording(file, name) as recording:
-                log_detection(recording, detection, line, name=name)
-            self._process, address = serve([file])
-            return address
-
-    def close(self) -> None:
-        """Stop serving."""
-        with self._lock:
-            self._stop()
-            self._folder.cleanup()
-
-    def _stop(self) -> None:
-        if self._process:
-            self._process.terminate()
-            self._process.wait()
-            self._process = None
+    Args:
+        detection: What the detector saw.
+        line: The line as it is labelled now, which counts as the truth.
+        name: Name of the photo.
+    """
+    with _one_at_a_time:
+        recording = rr.RecordingStream(APPLICATION, recording_id=name)
+        recording.set_log_time_enabled(False)
+        stream = rr.binary_stream(recording)
+        try:
+            recording.send_recording_name(name)
+            fidelity = fidelity_of(detection.edges.size)
+            log_detection(recording, detection, line, name=name, fidelity=fidelity)
+            ours = isinstance(detection, FilterDetection)
+            height, width = detection.edges.shape
+            contents = Contents(
+                height,
+                width,
+                truth=True,
+                filters=ours,
+                maps=tuple(detection.maps),
+                bank=ours and fidelity == "full",
+            )
+            recording.send_blueprint(detection_blueprint(contents))
+            return stream.read() or b""
+        finally:
+            recording.disconnect()

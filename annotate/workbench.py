@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from collections import OrderedDict
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import dataclass
@@ -14,16 +13,26 @@ import numpy as np
 from annotate import images
 from annotate.doubts import columns_of
 from annotate.joined import Joined, joined
+from annotate.memory import (
+    BLIND,
+    SESSION,
+    OpenPhotos,
+    SmallPictures,
+    detection_bytes,
+    require_room,
+)
 from annotate.opened import read_whole
 from annotate.session import Session
 from annotate.store import Card, Photo, Store
 from skyline_viz.detection import Detection
+from skyline_viz.memory import photo_limit
 from skyline_viz.methods.protocol import Method
+from skyline_viz.photo import PhotoError
 
 Order = Literal["name", "margin", "random"]
 """In which order photos are labelled: by name, the least certain first, or shuffled."""
 
-_OPEN = 3  # photos that are kept open: this one, the one before, and the next
+_AT_ONCE = 2  # photos that are read or detected at a time, however many are asked for
 
 
 class UnknownPhotoError(LookupError):
@@ -91,11 +100,12 @@ class Workbench:
         if doubts is not None:
             self.photos = {one: self.photos[one] for one in self.photos if one in self.doubts}
         self._labels: dict[int, int] = {}
-        self._open: OrderedDict[int, Future[Session]] = OrderedDict()
+        self._open: OpenPhotos[Session] = OpenPhotos()
+        self._work = threading.BoundedSemaphore(_AT_ONCE)
         self._lock = threading.RLock()
         self._ahead = ThreadPoolExecutor(1, "ahead")
         self._soon = ThreadPoolExecutor(1, "soon")
-        self._thumbnails: dict[int, bytes] = {}
+        self._thumbnails = SmallPictures()
         self._detection: tuple[int, int, Detection] | None = None
         chance = np.random.default_rng([assignment.seed, 1])
         drawn = chance.random(len(self.photos)) < assignment.blind
@@ -167,14 +177,24 @@ class Workbench:
         return future.result()
 
     def prepare_after(self, photo: int) -> None:
-        """Open the photo in the background that comes next: the first to do after this one."""
+        """Show a photo, and open the next one to do in the background where both fit."""
+        with self._lock:
+            if self._detection and self._detection[0] != photo:
+                self._detection = None
+                self._open.drop_beside()
+            self._open.show(photo)
 
         def work() -> None:
             cards = self.cards()
             place = next((at for at, one in enumerate(cards) if one.photo.id == photo), 0)
             rest = cards[place + 1 :] + cards[:place]
-            waiting = [card for card in rest if card.status == "to do"]
-            if waiting:
+            most = photo_limit() * 1e6
+            waiting = [
+                card
+                for card in rest
+                if card.status == "to do" and card.photo.height * card.photo.width <= most
+            ]
+            if waiting and self._open.fits(self._bytes(waiting[0].photo.id)):
                 following, mine = self._future(waiting[0].photo.id)
                 if mine:
                     self._fill(waiting[0].photo.id, following)
@@ -187,8 +207,7 @@ class Workbench:
 
     def close_photo(self, photo: int) -> None:
         """Forget an open photo: it is read from the disk again when it is asked for."""
-        with self._lock:
-            self._open.pop(photo, None)
+        self._open.close(photo)
 
     def propose_again(self, detector: Method) -> int:
         """Let another detector propose for the photos nobody has worked on; return how many."""
@@ -203,15 +222,18 @@ class Workbench:
         return changed
 
     def detection(self, photo: int) -> Detection:
-        """All stages of a photo, by the detector that made its proposal; the last one is kept."""
+        """All stages of a photo, by the detector that made its proposal; one is kept if it fits."""
         session = self.session(photo)
         with self._lock:
             kept = self._detection
             if kept and kept[:2] == (photo, id(session.detector)):
                 return kept[2]
-        found = session.detector.detect(session.pixels)
+            self._detection = None
+        with self._work:
+            found = session.detector.detect(session.pixels)
         with self._lock:
-            self._detection = (photo, id(session.detector), found)
+            if self._open.keep_beside(photo, detection_bytes(found)):
+                self._detection = (photo, id(session.detector), found)
         return found
 
     def joined(self) -> Joined:
@@ -222,10 +244,12 @@ class Workbench:
 
     def thumbnail(self, photo: int) -> bytes:
         """A small picture of a photo, as JPEG."""
-        if photo not in self._thumbnails:
-            pixels = read_whole(self.store, self.photo(photo))
-            self._thumbnails[photo] = images.thumbnail(pixels)
-        return self._thumbnails[photo]
+        picture = self._thumbnails.get(photo)
+        if picture is None:
+            with self._work:
+                picture = images.thumbnail(read_whole(self.store, self.photo(photo)))
+            self._thumbnails.keep(photo, picture)
+        return picture
 
     def strip(self, photo: int, width: int) -> bytes:
         """The straightened strip of a photo, as PNG.
@@ -233,36 +257,47 @@ class Workbench:
         Raises:
             PathError: There is no line yet.
         """
-        with self._lock:
-            waiting = self._open.get(photo)
+        waiting = self._open.get(photo)
         line = self.store.line(self.label(photo))
         if line is None or (waiting and waiting.done()):
             session = self.session(photo)
             with session.lock:
                 return images.strip(session.pixels, session.wire.skyline, width)
-        pixels = read_whole(self.store, self.photo(photo))
-        return images.strip(pixels, line.skyline, width)
+        with self._work:
+            pixels = read_whole(self.store, self.photo(photo))
+            return images.strip(pixels, line.skyline, width)
 
     def _future(self, photo: int) -> tuple[Future[Session], bool]:
         """What an open photo will be, and whether the caller has to open it."""
-        self.photo(photo)
-        with self._lock:
-            if photo in self._open:
-                self._open.move_to_end(photo)
-                return self._open[photo], False
-            future: Future[Session] = Future()
-            self._open[photo] = future
-            while len(self._open) > _OPEN:
-                self._open.popitem(last=False)
-            return future, True
+        return self._open.take(photo, self._bytes(photo))
+
+    def _bytes(self, photo: int) -> int:
+        """Bytes that a photo takes while it is open."""
+        one = self.photo(photo)
+        return one.height * one.width * (BLIND if photo in self._blind else SESSION)
 
     def _fill(self, photo: int, future: Future[Session]) -> None:
         try:
             label = self.label(photo)
             blind = self.store.is_blind(label)
-            future.set_result(
-                Session(self.store, self.photo(photo), label, self.detector, blind=blind)
-            )
+            with self._work:
+                self._require_room(photo, blind=blind)
+                session = Session(self.store, self.photo(photo), label, self.detector, blind=blind)
+            future.set_result(session)
         except BaseException as error:
             self.close_photo(photo)
             future.set_exception(error)
+
+    def _require_room(self, photo: int, *, blind: bool) -> None:
+        """Refuse a photo that does not fit into the memory, even with others closed.
+
+        Raises:
+            PhotoError: It does not fit.
+        """
+        if blind:
+            return
+        try:
+            require_room(self.photo(photo))
+        except PhotoError:
+            self._open.close_others(photo)
+            require_room(self.photo(photo))

@@ -134,9 +134,10 @@ def _about(detection: FilterDetection, column: int, index: int) -> str:
 
 def _edge_pixel(detection: FilterDetection, row: int, column: int) -> int:
     """Place of an edge pixel in the arrays ``(n,)``, which run row by row."""
-    first = int(np.searchsorted(detection.edge_rows, row))
-    last = int(np.searchsorted(detection.edge_rows, row, side="right"))
-    return first + int(np.searchsorted(detection.edge_columns[first:last], column))
+    wanted = np.array([row, column], detection.edge_rows.dtype)  # another type copies all of them
+    first = int(np.searchsorted(detection.edge_rows, wanted[0]))
+    last = int(np.searchsorted(detection.edge_rows, wanted[0], side="right"))
+    return first + int(np.searchsorted(detection.edge_columns[first:last], wanted[1]))
 
 
 def _png(picture: U8) -> rr.EncodedImage:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from multiprocessing.synchronize import Event
 from typing import Protocol, TypeVar
 
+from skyline_viz.memory import limit_photos, photo_limit
 from skyline_viz.notes import heard_by, note
 from skyline_viz.progress import ProgressBar
 
@@ -161,7 +162,9 @@ def _in_processes(
 ) -> Generator[Value | Failure, None, None]:
     context = multiprocessing.get_context("spawn")  # works everywhere, and inherits no threads
     stop = context.Event()
-    pool = ProcessPoolExecutor(workers, context, initializer=_prepare_worker, initargs=(stop,))
+    pool = ProcessPoolExecutor(
+        workers, context, initializer=_prepare_worker, initargs=(stop, photo_limit())
+    )
     waiting: deque[Future[tuple[Value | Failure, list[str]]]] = deque()
     coming = iter(tasks)
     try:
@@ -193,11 +196,12 @@ class _Worker:
     """Set when nobody waits for results any more."""
 
 
-def _prepare_worker(stop: Event) -> None:
+def _prepare_worker(stop: Event, megapixels: float) -> None:
     import cv2  # noqa: PLC0415  # only processes that work on photos pay for it
 
     cv2.setNumThreads(1)
     _Worker.stop = stop
+    limit_photos(megapixels)
 
 
 def _attempt_in_worker(

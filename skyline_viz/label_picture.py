@@ -16,8 +16,9 @@ import numpy.typing as npt
 from PIL import Image
 
 from skyline_viz.arrays import U8, Bool
+from skyline_viz.memory import photo_limit
 from skyline_viz.orientation import orientation_in, orientation_of, upright_image
-from skyline_viz.photo import MAX_MEGAPIXELS, MIN_SIDE, PhotoError, reading
+from skyline_viz.photo import MIN_SIDE, PhotoError, reading
 from skyline_viz.png_chunks import clean_png, png_chunks
 from skyline_viz.quiet_pillow import QUIET, silence_libtiff
 
@@ -81,10 +82,10 @@ def read_label_picture(path: str | os.PathLike[str]) -> LabelPicture:
     with reading(path) as file, QUIET:
         image, orientation = _opened(file)
         width, height = image.size
-        if width * height > MAX_MEGAPIXELS * 1e6:
+        if width * height > photo_limit() * 1e6:
             raise PhotoError(
                 f"{path} has {width}x{height} pixels, over the limit of "
-                f"{MAX_MEGAPIXELS:g} megapixels."
+                f"{photo_limit():g} megapixels."
             )
         if min(width, height) < MIN_SIDE:
             raise PhotoError(

@@ -12,6 +12,7 @@ from typing import BinaryIO
 
 from PIL import Image, UnidentifiedImageError
 
+from skyline_viz import memory
 from skyline_viz.arrays import U8
 from skyline_viz.files import replacing
 from skyline_viz.photo_decoding import decoded, opened
@@ -31,7 +32,7 @@ __all__ = [
     "write_photo",
 ]
 
-MAX_MEGAPIXELS = 150.0
+MAX_MEGAPIXELS = memory.MAX_MEGAPIXELS
 """Default limit on a photo's size, in million pixels, against decompression bombs."""
 
 MIN_SIDE = 8
@@ -42,7 +43,7 @@ class PhotoError(Exception):
     """A photograph cannot be read; the message is one sentence naming the file and the reason."""
 
 
-def read_photo(path: str | os.PathLike[str], *, max_megapixels: float = MAX_MEGAPIXELS) -> U8:
+def read_photo(path: str | os.PathLike[str], *, max_megapixels: float | None = None) -> U8:
     """Read one photograph.
 
     JPEG, PNG, HEIC, AVIF, WebP, TIFF, JPEG 2000, GIF, BMP and PGM/PPM, told by content and not by
@@ -51,7 +52,8 @@ def read_photo(path: str | os.PathLike[str], *, max_megapixels: float = MAX_MEGA
 
     Args:
         path: The file.
-        max_megapixels: Larger photos are refused before they are decoded.
+        max_megapixels: Larger photos are refused before they are decoded; None for the limit of
+            this process, which is 150 unless a command has changed it.
 
     Returns:
         The photo, ``(H, W, 3)`` uint8 RGB.
@@ -64,7 +66,7 @@ def read_photo(path: str | os.PathLike[str], *, max_megapixels: float = MAX_MEGA
 
 
 def read_photo_with_notes(
-    path: str | os.PathLike[str], *, max_megapixels: float = MAX_MEGAPIXELS
+    path: str | os.PathLike[str], *, max_megapixels: float | None = None
 ) -> tuple[U8, tuple[str, ...]]:
     """Read one photograph, and hear what had to be decided about it; see `read_photo`.
 
@@ -77,6 +79,8 @@ def read_photo_with_notes(
     """
     with reading(path) as file, opened(file, Path(path)) as image:
         height, width = image.shape
+        if max_megapixels is None:
+            max_megapixels = memory.photo_limit()
         if width * height > max_megapixels * 1e6:
             raise PhotoError(
                 f"{path} has {width}x{height} pixels, over the limit of "

@@ -33,6 +33,7 @@ from skyline_viz.detection import Detection
 from skyline_viz.detector import FilterDetection
 from skyline_viz.documents import markdown_document
 from skyline_viz.files import replacing
+from skyline_viz.memory import FULL_MEGAPIXELS
 from skyline_viz.names import printable, recording_id, shown_in_viewer
 from skyline_viz.overlay import PATH, TRUTH
 from skyline_viz.report import report
@@ -89,6 +90,15 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
             recording.disconnect()  # writes the footer, without which the file is not whole
     if interrupted:
         raise interrupted
+
+
+def fidelity_of(pixels: int, full_megapixels: float = FULL_MEGAPIXELS) -> Fidelity:
+    """How much to keep of photos of so many pixels in all.
+
+    >>> fidelity_of(1388 * 519), fidelity_of(20000 * 2000)
+    ('full', 'lean')
+    """
+    return "full" if pixels <= full_megapixels * 1e6 else "lean"
 
 
 def log_detection(

@@ -1,6 +1,7 @@
-"""The Rerun viewer as a process: open it, serve it to a browser, or take pictures without a screen.
+"""The Rerun viewer as a process: open it, or take pictures without a screen.
 
-Whatever is started here listens on this machine alone; the viewer's own default is every network.
+Whatever is started here listens on this machine alone, and contacts this machine alone; the
+viewer's own defaults are every network, and its makers' servers.
 """
 
 from __future__ import annotations
@@ -34,6 +35,11 @@ PROGRAM = Path(str(rerun_cli.__file__)).with_name("rerun.exe" if os.name == "nt"
 WINDOW = (1280, 800)
 """Width and height of pictures, in pixels."""
 
+_ALONE = dict.fromkeys(("HTTPS_PROXY", "HTTP_PROXY", "ALL_PROXY"), f"http://{LOOPBACK}:9") | {
+    "NO_PROXY": f"{LOOPBACK},localhost"
+}
+"""A way out that leads nowhere: the viewer asks for news and reports its use, and has no switch."""
+
 _START_SECONDS = 30.0
 _PICTURE_SECONDS = 60.0
 _BAR = 37  # rows of the window's own bar, which stays when its content is hidden
@@ -65,23 +71,29 @@ def open_viewer(sources: Sequence[str | Path], port: int | None = None) -> subpr
     return _start(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
-def serve(sources: Sequence[str | Path]) -> tuple[subprocess.Popen[bytes], str]:
-    """Serve recordings to a browser on this machine.
+@contextmanager
+def web_server() -> Iterator[str]:
+    """Run the viewer's own web server for a moment, without recordings, and hand out its address.
 
-    Returns:
-        The server's process, and the address to open.
+    It answers whoever reaches its port, so nothing but the viewer's program is ever on it; what
+    shows recordings in a browser is `skyline_viz.web_viewer`.
+
+    Raises:
+        ViewerError: It does not start.
     """
     page, data = free_port(), free_port()
     arguments = ["--serve-web", "--web-viewer-port", str(page), "--port", str(data)]
-    process = _start([*arguments, *map(str, sources)], stdout=subprocess.DEVNULL)
-    address = f"http://{LOOPBACK}:{page}/?url=rerun%2Bhttp%3A%2F%2F{LOOPBACK}%3A{data}%2Fproxy"
+    process = _start(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     deadline = monotonic() + _START_SECONDS
-    while not _listens(page):
-        if process.poll() is not None or monotonic() > deadline:
-            process.terminate()
-            raise ViewerError("the viewer's web server did not start.")
-        sleep(0.05)
-    return process, address
+    try:
+        while not _listens(page):
+            if process.poll() is not None or monotonic() > deadline:
+                raise ViewerError("the viewer's web server did not start.")
+            sleep(0.05)
+        yield f"http://{LOOPBACK}:{page}"
+    finally:
+        process.terminate()
+        process.wait()
 
 
 @contextmanager
@@ -257,7 +269,8 @@ def free_port() -> int:
 
 def _start(arguments: Sequence[str], **streams: Any) -> subprocess.Popen[bytes]:  # noqa: ANN401
     common = ["--bind", LOOPBACK, "--hide-welcome-screen"]
-    environment = {"RUST_LOG": "warn", **os.environ}
+    alone = _ALONE | {name.lower(): value for name, value in _ALONE.items()}
+    environment = {"RUST_LOG": "warn", **os.environ, **alone}
     try:
         return subprocess.Popen([PROGRAM, *common, *arguments], env=environment, **streams)  # noqa: S603
     except OSError as error:

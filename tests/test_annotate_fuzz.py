@@ -42,8 +42,8 @@ def test_no_request_makes_the_server_stumble(tmp_path):
     tried = {}
     for found in schema.get_all_operations():
         operation = found.ok()
-        if operation.path.endswith("/rerun"):
-            continue  # would start a viewer each time; its errors are tested elsewhere
+        if operation.path.endswith("/recording"):
+            continue  # takes long each time; its errors are tested elsewhere
         tried[operation.method, operation.path] = fuzz(operation)
     bench.close()
     assert len(tried) >= 15

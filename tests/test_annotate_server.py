@@ -34,7 +34,7 @@ ROUTES = [
     ("POST", "/api/photos/1/operations"),
     ("POST", "/api/photos/1/undo"),
     ("POST", "/api/photos/1/redo"),
-    ("POST", "/api/photos/1/rerun"),
+    ("GET", "/api/photos/1/recording"),
     ("POST", "/api/learn"),
     ("GET", "/api/nothing"),
     ("GET", "/static/index.html"),

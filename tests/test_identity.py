@@ -28,8 +28,8 @@ from annotate.opened import ReplacedError, read_whole
 from annotate.operations import Open, SetStatus, SetTag, Straight
 from annotate.store import Store
 from skyline_viz.photo import PhotoError, read_photo
-from tests.labelling import served, workbench
 from tests.edited_photos import replaced, with_comment, with_place, write_jpegs
+from tests.labelling import served, workbench
 
 EVERY = pytest.mark.parametrize("kind", list(FORMATS))
 EDITS = pytest.mark.parametrize("edit", [with_comment, with_place])

@@ -23,7 +23,9 @@ from annotate.labels import MOST_PASSES
 from skyline_viz.commands.messages import GOOD, UsageError, counted, say, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detector
+from skyline_viz.commands.sizes import MaxMegapixels, say_too_large
 from skyline_viz.config import DetectorConfig
+from skyline_viz.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
     from annotate.store import Store
@@ -73,6 +75,9 @@ class Open:
 
     no_browser: Switch = False
     """Print the address, and do not open it."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     config: DetectorConfig = field(default_factory=DetectorConfig)
     """Single settings of the detector."""
@@ -124,6 +129,9 @@ class Open:
             say(problem, PROGRAM)
         for unread in self._unread():
             say(unread, PROGRAM)
+        most = self.max_megapixels * 1e6
+        every = bench.photos.values()
+        say_too_large([one.name for one in every if one.height * one.width > most], PROGRAM)
         if self.order == "margin":
             propose_all(bench)
         progress = bench.progress(bench.cards())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from annotate.commands.options import PROGRAM, PhotoFolder, check_folder, locked
-from skyline_viz.commands.messages import GOOD, say
+from skyline_viz.commands.messages import GOOD, say, tell
 
 
 @dataclass(frozen=True)
@@ -24,5 +24,5 @@ class Repair:
         for sentence in said:
             say(sentence, PROGRAM)
         if not said:
-            print(f"All labels in {self.folder} can be read; nothing was changed.")
+            tell(f"All labels in {self.folder} can be read; nothing was changed.")
         return GOOD

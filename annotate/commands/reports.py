@@ -13,6 +13,8 @@ from annotate.commands.options import PROGRAM, PhotoFolder, opened
 from annotate.labels import STATUSES
 from skyline_viz.commands.messages import GOOD, UsageError, counted, say, tell, tell_drawn
 from skyline_viz.commands.settings import Switch, check_picture
+from skyline_viz.commands.sizes import MaxMegapixels
+from skyline_viz.memory import MAX_MEGAPIXELS
 from skyline_viz.names import cell, columns_of, padded, shortened
 
 
@@ -82,6 +84,9 @@ class Agreement:
 
     picture: Annotated[Path | None, tyro.conf.arg(metavar="FILE.png")] = None
     """Where to draw the photos that differ most."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     def run(self) -> int:
         """Print how far they agree; return the exit status."""

@@ -22,7 +22,9 @@ from annotate.commands.options import (
 )
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, tell
 from skyline_viz.commands.settings import OptionalFolder, Switch
+from skyline_viz.commands.sizes import MaxMegapixels
 from skyline_viz.commands.truth_options import TruthOptions, Truths
+from skyline_viz.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
     from annotate.identity import Photo
@@ -53,6 +55,8 @@ class Export:
 
     orphans: Switch = False
     """Write the labels whose photos are not in the folder any more, and no others; csv or json."""
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     def run(self) -> int:
         """Export; return the exit status."""
@@ -109,6 +113,8 @@ class Import:
 
     truths: TruthOptions = field(default_factory=Truths)
     """Which value of a mask, or which label of a region, is sky or terrain."""
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     def run(self) -> int:
         """Import; return the exit status."""

@@ -128,3 +128,9 @@ async function answered(method, path, kind, body, signal) {
   const detail = typeof read?.detail === "string" ? read.detail : `The server answers ${answer.status}.`;
   throw new ApiError(answer.status, detail, read?.revision);
 }
+
+/** Address of a page with the stages of a photo; behind its `#`, which no request carries, stands the token. */
+export function stagesAddress(photo) {
+  const asked = new URLSearchParams({ recording: `../../api/photos/${photo}/recording`, token });
+  return new URL(`static/stages/#${asked}`, location.href).href;
+}

@@ -96,7 +96,7 @@ export class Labelling extends EventTarget {
   following() {
     const from = this.place + 1;
     return [...this.photos.slice(from), ...this.photos.slice(0, Math.max(from - 1, 0))]
-      .find((photo) => photo.status === "to do" && !photo.missing);
+      .find((photo) => photo.status === "to do" && !photo.missing && !photo.too_large);
   }
 
   /** Do an operation on the photo that is shown; what it will look like may be shown at once. */

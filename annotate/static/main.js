@@ -1,7 +1,7 @@
 /** Puts the page together: which parts there are, and which button or key calls what. */
 
 import { Actions } from "./actions.js";
-import { post, signIn } from "./api.js";
+import { signIn, stagesAddress } from "./api.js";
 import * as dialogs from "./dialogs.js";
 import { Header } from "./header.js";
 import { keyTable, listen } from "./keys.js";
@@ -83,17 +83,15 @@ const act = {
   overlay: () => overlay.next(),
   async stages() {
     if (!labelling.document) return;
-    labelling.say("Opening the stages in Rerun...");
-    const tab = open("", "_blank");
-    try {
-      await queue.settled();
-      const { url } = await post(`api/photos/${labelling.document.id}/rerun`, {});
-      if (tab) tab.location = url;
-      labelling.say(tab ? "The stages are in another tab." : `The browser keeps tabs from opening; the stages are at ${url}`);
-    } catch (error) {
-      tab?.close();
-      labelling.say(error.message, true);
+    if (labelling.document.blind) {
+      labelling.say("The photo is labelled blind, so nothing of the detector is shown.", true);
+      return;
     }
+    const tab = open("", "_blank"); // now: later the browser would not let it open
+    await queue.settled();
+    const address = stagesAddress(labelling.document.id);
+    if (tab) tab.location = address;
+    labelling.say(tab ? "The stages are in another tab." : "The browser keeps tabs from opening; allow them for this page.", !tab);
   },
   sheet: () => sheet.show(),
   list() {
@@ -222,7 +220,7 @@ instead("The photos are being listed…");
 async function begin() {
   await labelling.load();
   await recover();
-  const first = labelling.photos.find((one) => ["to do", "in progress"].includes(one.status) && !one.missing) ?? labelling.photos[0];
+  const first = labelling.photos.find((one) => ["to do", "in progress"].includes(one.status) && !one.missing && !one.too_large) ?? labelling.photos[0];
   if (first) await labelling.open(first.id);
   else instead("There is no photo to label.");
   dialogs.welcome();

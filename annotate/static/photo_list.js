@@ -95,8 +95,9 @@ export class PhotoList {
     title.textContent = photo.name;
     title.title = photo.name;
     const sub = document.createElement("div");
-    sub.className = `sub ${photo.missing ? "missing" : photo.status.split(" ")[0]}`;
-    sub.textContent = [photo.missing ? "missing" : photo.status, photo.blind ? "blind" : "", ...photo.tags].filter(Boolean).join(", ");
+    const lost = photo.missing ? "missing" : photo.too_large ? "too large" : "";
+    sub.className = `sub ${lost ? "missing" : photo.status.split(" ")[0]}`;
+    sub.textContent = [lost || photo.status, photo.blind ? "blind" : "", ...photo.tags].filter(Boolean).join(", ");
     words.append(title, sub);
     item.append(image, words);
     return item;
@@ -108,7 +109,7 @@ export class PhotoList {
       image.src = kept;
       return;
     }
-    if (kept === "" || photo.missing) return;
+    if (kept === "" || photo.missing || photo.too_large) return;
     this.#thumbnails.set(photo.id, "");
     try {
       const url = URL.createObjectURL(await blob(`api/photos/${photo.id}/thumbnail`));

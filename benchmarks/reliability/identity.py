@@ -26,8 +26,8 @@ from annotate.operations import SetStatus, Straight
 from annotate.store import Store
 from benchmarks.reliability import Trial
 from skyline_viz.photo import PhotoError, read_photo
-from tests.labelling import workbench
 from tests.edited_photos import replaced, with_comment, with_place, write_jpegs
+from tests.labelling import workbench
 
 _PHOTOS = 8
 _CHANGES = 250

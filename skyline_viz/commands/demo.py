@@ -13,8 +13,10 @@ from skyline_viz.commands.inputs import collect, output_folder
 from skyline_viz.commands.messages import SOME_FAILED, say, status_after, tell
 from skyline_viz.commands.render import write_with_progress
 from skyline_viz.commands.settings import Folder, make_detector
+from skyline_viz.commands.sizes import MaxMegapixels
 from skyline_viz.config import DetectorConfig
 from skyline_viz.datasets import DatasetError, open_dataset
+from skyline_viz.memory import MAX_MEGAPIXELS
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,10 @@ class Demo:
     """Folder of the gallery; without a display, a picture of it goes there, too."""
 
     workers: int = 0
-    """Processes to work in; 0 chooses by the number of photos."""
+    """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     def run(self) -> int:
         """Detect, record and show; return the exit status."""

@@ -14,7 +14,9 @@ from skyline_viz.commands.inputs import Input, collect, output_folder
 from skyline_viz.commands.messages import UsageError, counted, status_after, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Folder, Preset, Switch, make_detector
+from skyline_viz.commands.sizes import MaxMegapixels, foresee
 from skyline_viz.config import DetectorConfig
+from skyline_viz.memory import MAX_MEGAPIXELS
 from skyline_viz.names import columns_of, padded, shortened
 
 if TYPE_CHECKING:
@@ -54,7 +56,10 @@ class Detect:
     """Also write NAME.json: the skyline as JSON."""
 
     workers: int = 0
-    """Processes to work in; 0 chooses by the number of photos."""
+    """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     config: DetectorConfig = field(default_factory=DetectorConfig)
     """Single settings of the detector."""
@@ -68,7 +73,8 @@ class Detect:
         output_folder(self.out, (one.item for one in inputs))
         wide = max(columns_of(shortened(one.name)) for one in inputs)
         failures = []
-        outcomes = run(partial(_detect, self, detector), inputs, workers=self.workers)
+        workers = foresee((one.item for one in inputs), self.workers)
+        outcomes = run(partial(_detect, self, detector), inputs, workers=workers)
         for outcome in outcomes:
             if isinstance(outcome, Failure):
                 failures.append(outcome)

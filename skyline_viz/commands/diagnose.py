@@ -20,8 +20,10 @@ from skyline_viz.commands.settings import (
     Switch,
     make_detector,
 )
+from skyline_viz.commands.sizes import MaxMegapixels, foresee
 from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig
+from skyline_viz.memory import MAX_MEGAPIXELS, RECORDING
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -69,7 +71,10 @@ class Diagnose:
     """Seed of the negative samples in a cross-validation."""
 
     workers: int = 0
-    """Processes to work in; 0 chooses by the number of photos."""
+    """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     config: DetectorConfig = field(default_factory=DetectorConfig)
     """Single settings of the detector."""
@@ -87,33 +92,34 @@ class Diagnose:
             raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
         if self.out:
             output_folder(self.out, dataset)
-        detectors, failures = self._detectors(items)
+        workers = foresee(items, self.workers, RECORDING)
+        detectors, failures = self._detectors(items, workers)
         if self.photo:
             items = [item for item in items if item.name == self.photo]
-        found, failed = self._diagnose(items, detectors)
+        found, failed = self._diagnose(items, detectors, workers)
         self._tell(dataset.name, found)
         return status_after([*failures, *failed])
 
     def _detectors(
-        self, items: Sequence[DatasetItem]
+        self, items: Sequence[DatasetItem], workers: int
     ) -> tuple[Mapping[str, Method], list[Failure]]:
         """The detector of each photo, by its name."""
         if self.methods.given:
             from skyline_viz.methods.testing import fold_method  # noqa: PLC0415
 
             method = self.methods.one(self.bank, self.config, to_train=bool(self.folds))
-            return fold_method(items, method, self.folds, self.seed, self.workers)
+            return fold_method(items, method, self.folds, self.seed, workers)
         if not self.folds:
             detector = make_detector(self.bank, self.config)
             return {item.name: detector for item in items}, []
         from skyline_viz.evaluation import fold_detectors  # noqa: PLC0415
 
         return fold_detectors(
-            items, self.folds, config=self.config, seed=self.seed, workers=self.workers
+            items, self.folds, config=self.config, seed=self.seed, workers=workers
         )
 
     def _diagnose(
-        self, items: Sequence[DatasetItem], detectors: Mapping[str, Method]
+        self, items: Sequence[DatasetItem], detectors: Mapping[str, Method], workers: int
     ) -> tuple[list[Diagnosed], list[Failure]]:
         from skyline_viz.diagnosis_report import diagnose_item  # noqa: PLC0415
         from skyline_viz.evaluation import Test  # noqa: PLC0415
@@ -123,7 +129,7 @@ class Diagnose:
         )
         tasks = [Test(item, detectors[item.name]) for item in items if item.name in detectors]
         found, failures = [], []
-        for outcome in run(work, tasks, workers=self.workers, title="diagnosing"):
+        for outcome in run(work, tasks, workers=workers, title="diagnosing"):
             if isinstance(outcome, Failure):
                 failures.append(outcome)
             else:

@@ -11,8 +11,10 @@ from skyline_viz.commands.inputs import output_folder, with_truth
 from skyline_viz.commands.messages import UsageError, counted, say, status_after, tell, tell_drawn
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Folder, OptionalFolder, Preset, make_detector
+from skyline_viz.commands.sizes import MaxMegapixels, foresee
 from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig
+from skyline_viz.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -51,7 +53,10 @@ class Evaluate:
     """Seed of the negative samples in a cross-validation."""
 
     workers: int = 0
-    """Processes to work in; 0 chooses by the number of photos."""
+    """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     config: DetectorConfig = field(default_factory=DetectorConfig)
     """Single settings of the detector."""
@@ -66,15 +71,16 @@ class Evaluate:
         items = with_truth(dataset)
         if self.out:
             output_folder(self.out, dataset)
+        workers = foresee(items, self.workers)
         if self.methods.given:
-            return self._compare(dataset, items)
+            return self._compare(dataset, items, workers)
         from skyline_viz.evaluation import cross_validate, evaluate  # noqa: PLC0415
 
         if self.folds:
             how = f"{self.folds}-fold cross-validation"
             about: dict[str, object] = {"folds": self.folds, "seed": self.seed}
             results, failures = cross_validate(
-                items, self.folds, config=self.config, seed=self.seed, workers=self.workers
+                items, self.folds, config=self.config, seed=self.seed, workers=workers
             )
         else:
             detector = make_detector(self.bank, self.config)
@@ -83,7 +89,7 @@ class Evaluate:
             about = {"bank": asdict(provenance)}
             if provenance.dataset == dataset.name:
                 say(f"the bank was trained on {dataset.name}, so this is no test; see --folds.")
-            results, failures = evaluate(items, detector, workers=self.workers)
+            results, failures = evaluate(items, detector, workers=workers)
         title = f"{dataset.name}: {counted(len(results), 'photo')}, {how}"
         if self.out:
             self._write(dataset, title, about, results, failures)
@@ -93,7 +99,7 @@ class Evaluate:
             tell(f"summary.json, photos.csv and histogram.png in {self.out}")
         return status_after(failures)
 
-    def _compare(self, dataset: Dataset, items: Sequence[DatasetItem]) -> int:
+    def _compare(self, dataset: Dataset, items: Sequence[DatasetItem], workers: int) -> int:
         """Evaluate the methods that were named."""
         from skyline_viz import evaluation_report as report  # noqa: PLC0415
         from skyline_viz.methods.registry import learned_from  # noqa: PLC0415
@@ -103,9 +109,7 @@ class Evaluate:
         for text in self.methods.method:
             if not self.folds and learned_from(text) == dataset.name:
                 say(f"{text} was trained on {dataset.name}, so this is no test; see --folds.")
-        found = compare_methods(
-            items, methods, folds=self.folds, seed=self.seed, workers=self.workers
-        )
+        found = compare_methods(items, methods, folds=self.folds, seed=self.seed, workers=workers)
         how = f"{self.folds}-fold cross-validation" if self.folds else "as they are"
         tell(f"{dataset.name}: {counted(len(items), 'photo')}, {how}; A_err in px")
         tell_drawn(report.methods_table(found.results), width=110)

@@ -34,8 +34,10 @@ from skyline_viz.commands.settings import (
     check_picture,
     make_detector,
 )
+from skyline_viz.commands.sizes import MaxMegapixels, foresee
 from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig
+from skyline_viz.memory import MAX_MEGAPIXELS, RECORDING
 
 if TYPE_CHECKING:
     from skyline_viz.gallery import Entry
@@ -77,7 +79,10 @@ class GalleryCommand:
     """Serve the gallery until Ctrl-C without opening a viewer."""
 
     workers: int = 0
-    """Processes to work in; 0 chooses by the number of photos."""
+    """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     methods: MethodOptions = field(default_factory=Methods)
     """One method instead of ours, or two: those photos first on which they differ most."""
@@ -141,6 +146,7 @@ def build(
     shots = [Shot(one.name, one.item) for one in inputs]
     entries: list[Entry] = []
     failures: list[Failure] = []
+    workers = foresee((one.item for one in inputs), workers, RECORDING)
     for outcome in Gallery(out).build(shots, method, beside, workers):
         if isinstance(outcome, Failure):
             failures.append(outcome)

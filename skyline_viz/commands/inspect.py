@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
+import math
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from threading import Event
 from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
 from skyline_viz.batch import Failure, sentence
+from skyline_viz.commands import inspect_more
 from skyline_viz.commands.inputs import Input, collect, with_truth
-from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, status_after, tell
+from skyline_viz.commands.messages import (
+    GOOD,
+    SOME_FAILED,
+    UsageError,
+    counted,
+    say,
+    status_after,
+    tell,
+)
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import (
     BankFile,
@@ -24,27 +35,28 @@ from skyline_viz.commands.settings import (
     config_of,
     make_detector,
 )
+from skyline_viz.commands.sizes import MaxMegapixels, foresee, pixels_of
 from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig, TrainingConfig
+from skyline_viz.memory import (
+    FULL_MEGAPIXELS,
+    FULL_RECORDING,
+    MAX_MEGAPIXELS,
+    RECORDING,
+    RECORDING_FULL,
+    in_words,
+)
 from skyline_viz.progress import ProgressBar
 
 if TYPE_CHECKING:
     import rerun as rr
 
-    from skyline_viz.blueprints import Contents, MethodContents
-    from skyline_viz.detection import Detection
-    from skyline_viz.detector import Detector, FilterDetection
-    from skyline_viz.diagnosis import Diagnosis
+    from skyline_viz.blueprints import Contents
+    from skyline_viz.detector import Detector
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.methods.protocol import Method
     from skyline_viz.recording import Fidelity
     from skyline_viz.skyline import Skyline
-    from skyline_viz.sweep import Sweep
-
-_WARM = 64  # rows and columns of a detection before the timed one
-
-FULL_AT_MOST = 3
-"""Photos in one recording that are kept in full; more are lean, see `recording.Fidelity`."""
 
 
 @dataclass(frozen=True)
@@ -94,6 +106,12 @@ class Inspect:
     truths: TruthOptions = field(default_factory=Truths)
     """How to read masks that leave a choice."""
 
+    full_megapixels: Annotated[float, tyro.conf.arg(metavar="N")] = FULL_MEGAPIXELS
+    """Million pixels in one recording that are kept in full, 36 bytes each; more are kept lean."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
+
     bank: BankFile = None
     """Filter bank to use; the shipped one unless given."""
 
@@ -121,11 +139,31 @@ class Inspect:
             self._train_sizes(inputs[0], detector, failures) if self.sweep_training else [],
             self._methods(),
         )
+        pixels = self._foresee(inputs)
         with self._folder() as folder:
-            files = self._record(inputs, using, folder, failures)
+            files = self._record(inputs, pixels, using, folder, failures)
             if files:
                 self._show(files)
         return status_after(failures) or (GOOD if files else SOME_FAILED)
+
+    def _foresee(self, inputs: Sequence[Input]) -> dict[str, int]:
+        """Say what is too large, or is kept lean; return the pixels of each input by name."""
+        if not 0 <= self.full_megapixels < float("inf"):
+            raise UsageError(f"--full-megapixels is 0 or more, not {self.full_megapixels:g}.")
+        named = (replace(one.item, name=one.name) for one in inputs)
+        most = self.max_megapixels * 1e6
+        pixels = {item.name: found for item, found in pixels_of(named) if found <= most}
+        total = max(pixels.values(), default=0) if self.split else sum(pixels.values())
+        full = total <= self.full_megapixels * 1e6
+        if not full:
+            size = in_words(FULL_RECORDING * total)
+            say(
+                f"maps are kept lean: {total / 1e6:.1f} megapixels in full would be {size} in one "
+                f"recording; --full-megapixels {math.ceil(total / 1e6)} keeps them."
+            )
+        items = (one.item for one in inputs)
+        foresee(items, workers=1, bytes_a_pixel=RECORDING_FULL if full else RECORDING)
+        return pixels
 
     def _check_targets(self) -> None:
         check_picture(self.screenshot)
@@ -173,6 +211,7 @@ class Inspect:
     def _record(
         self,
         inputs: Sequence[Input],
+        pixels: Mapping[str, int],
         using: _Using,
         folder: Path,
         failures: list[Failure],
@@ -180,7 +219,7 @@ class Inspect:
         """Write the recordings, and return their files."""
         from skyline_viz.names import recording_id  # noqa: PLC0415
         from skyline_viz.photo import PhotoError  # noqa: PLC0415
-        from skyline_viz.recording import new_recording  # noqa: PLC0415
+        from skyline_viz.recording import fidelity_of, new_recording  # noqa: PLC0415
 
         of_a_photo = (PhotoError, ValueError, MemoryError)  # what the other photos survive
         groups = [[one] for one in inputs] if self.split else [list(inputs)]
@@ -188,6 +227,8 @@ class Inspect:
         with ProgressBar(len(inputs), "photos") as bar:
             for group in groups:
                 name = group[0].name if len(group) == 1 else self.photos[0].resolve().name
+                total = sum(pixels.get(one.name, 0) for one in group)
+                fidelity = fidelity_of(total, self.full_megapixels)
                 together = self.save if not self.split else None
                 file = together or folder / f"{recording_id(name)}.rrd"
                 with suppress(_Nothing), new_recording(file, name) as recording:
@@ -195,7 +236,7 @@ class Inspect:
                     for step, one in enumerate(group):
                         recording.set_time("image", sequence=step)
                         try:
-                            logged = self._log(recording, one, using, len(group))
+                            logged = self._log(recording, one, using, len(group), fidelity)
                             contents = contents or logged
                         except of_a_photo as problem:
                             failures.append(Failure(one.name, sentence(problem)))
@@ -210,6 +251,7 @@ class Inspect:
         one: Input,
         using: _Using,
         together: int,
+        fidelity: Fidelity,
     ) -> Contents:
         """Log a photo of `together` ones, and say what the recording now holds."""
         from skyline_viz.bank_recording import log_path_bins  # noqa: PLC0415
@@ -221,24 +263,23 @@ class Inspect:
         photo, truth = one.item.photo(), self._truth_of(one)
         warm_up()
         found = using.detector.detect(photo)
-        fidelity: Fidelity = "full" if together <= FULL_AT_MOST else "lean"
         alone = together == 1
         if alone:  # what is logged below is there in every column
             recording.set_time("column", sequence=0)
-        sweeps = _begin_sweeps(recording, found, using.sizes) if self.sweep else []
+        sweeps = inspect_more.begin_sweeps(recording, found, using.sizes) if self.sweep else []
         verdict = log_detection(recording, found, truth, name=one.name, fidelity=fidelity)
         if using.other:
             second = using.other.detect(photo)
             log_comparison(recording, found, second, truth, str(self.compare), fidelity)
-        methods = _log_methods(recording, found, using.methods, truth, fidelity)
+        methods = inspect_more.log_methods(recording, found, using.methods, truth, fidelity)
         diagnosis = None
         if alone and truth is not None and truth.visible.any():
-            diagnosis = _log_diagnosis(recording, found, truth, one.name)
+            diagnosis = inspect_more.log_diagnosis(recording, found, truth, one.name)
         if alone:
             recording.disable_timeline("column")
             log_path_bins(recording, found)
         if sweeps:
-            _log_sweeps(recording, sweeps, found, truth)
+            inspect_more.log_sweeps(recording, sweeps, found, truth)
         error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
         tell(f"{one.name}{error}  margin {verdict.margin:.3g}")
         if diagnosis and diagnosis.right:
@@ -304,9 +345,11 @@ class Inspect:
         elif self.connect:
             viewer.send(files, self.connect)
         elif self.serve:
-            process, address = viewer.serve(files)
-            tell(f"Open {address} in a browser. Ctrl-C ends.")
-            viewer.wait_for(process)
+            from skyline_viz.web_viewer import served  # noqa: PLC0415
+
+            with served(files) as address, suppress(KeyboardInterrupt):
+                tell(f"Open {address} in a browser. Ctrl-C ends.")
+                Event().wait()
         else:
             viewer.wait_for(viewer.open_viewer(files))
 
@@ -323,74 +366,3 @@ class _Using:
 
 class _Nothing(Exception):  # noqa: N818  # no error: there is nothing to write
     """No photo of a recording could be read."""
-
-
-def _log_diagnosis(
-    recording: rr.RecordingStream, found: Detection, truth: Skyline, name: str
-) -> Diagnosis:
-    """Find out why a detection went wrong, and log it where it did."""
-    from skyline_viz.diagnosis import diagnose  # noqa: PLC0415
-    from skyline_viz.diagnosis_recording import log_diagnosis  # noqa: PLC0415
-
-    diagnosis = diagnose(found, truth)
-    if not diagnosis.right:
-        log_diagnosis(recording, diagnosis, found, truth, name)
-    return diagnosis
-
-
-def _log_methods(
-    recording: rr.RecordingStream,
-    found: Detection,
-    methods: Sequence[Method],
-    truth: Skyline | None,
-    fidelity: Fidelity,
-) -> tuple[MethodContents, ...]:
-    """Detect with other methods and log it; return what the recording now holds of them."""
-    if not methods:
-        return ()
-    from skyline_viz.blueprints import MethodContents  # noqa: PLC0415
-    from skyline_viz.detector import FilterDetection  # noqa: PLC0415
-    from skyline_viz.method_recording import log_methods  # noqa: PLC0415
-
-    for method in methods:  # the first time includes loading compiled loops
-        method.detect(found.photo[:_WARM, :_WARM].copy())
-    others = [method.detect(found.photo) for method in methods]
-    log_methods(recording, found, others, truth, fidelity)
-    return tuple(
-        MethodContents(
-            one.method,
-            filters=isinstance(one, FilterDetection),
-            edges=not one.edges.all(),
-            maps=tuple(one.maps),
-        )
-        for one in others
-    )
-
-
-def _begin_sweeps(
-    recording: rr.RecordingStream, found: FilterDetection, sizes: Sequence[FilterBank]
-) -> list[Sweep]:
-    """Choose what to sweep; what is logged from now on is there on all of the timelines."""
-    from skyline_viz.sweep import setting_sweeps, size_sweep  # noqa: PLC0415
-
-    sweeps = setting_sweeps(found)
-    if sizes:
-        sweeps.append(size_sweep(found, sizes))
-    else:
-        tell("The filter size is not swept: name a data set to train on with --sweep-training.")
-    for sweep in sweeps:
-        recording.set_time(sweep.timeline, sequence=sweep.steps[0].at)
-    return sweeps
-
-
-def _log_sweeps(
-    recording: rr.RecordingStream,
-    sweeps: list[Sweep],
-    found: FilterDetection,
-    truth: Skyline | None,
-) -> None:
-    """Detect with all values, and log it."""
-    from skyline_viz.sweep_recording import log_sweeps  # noqa: PLC0415
-
-    with ProgressBar(sum(len(sweep.steps) for sweep in sweeps), "values") as bar:
-        log_sweeps(recording, sweeps, found, truth, bar.advance)

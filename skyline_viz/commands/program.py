@@ -26,6 +26,7 @@ from skyline_viz.commands.messages import (
     say_what_is_left,
     tell,
 )
+from skyline_viz.commands.sizes import limit
 from skyline_viz.names import printable
 from skyline_viz.notes import heard_by, once
 
@@ -107,6 +108,8 @@ def _run(program: str, parse: Callable[[list[str]], Command], arguments: list[st
         command = parse(arguments)
     except SystemExit as leaving:  # help, or a command line that makes no sense
         return leaving.code if isinstance(leaving.code, int) else USAGE
+    if (megapixels := getattr(command, "max_megapixels", None)) is not None:
+        limit(megapixels)
     return command.run()
 
 

@@ -13,7 +13,9 @@ from skyline_viz.commands.inputs import output_folder, with_truth
 from skyline_viz.commands.messages import SOME_FAILED, UsageError, say, status_after, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import Folder, Switch
+from skyline_viz.commands.sizes import MaxMegapixels, foresee
 from skyline_viz.commands.truth_options import TruthOptions, Truths
+from skyline_viz.memory import MAX_MEGAPIXELS
 from skyline_viz.methods.names import MethodName
 
 if TYPE_CHECKING:
@@ -53,7 +55,10 @@ class Tables:
     """Seed of all that is drawn."""
 
     workers: int = 0
-    """Processes to work in; 0 chooses by the number of photos."""
+    """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     def run(self) -> int:
         """Measure and write; return the exit status."""
@@ -75,27 +80,26 @@ class Tables:
                 raise UsageError(f"two data sets are called {dataset.name}; rename a folder.")
             output_folder(self.out, dataset)
             sets[dataset.name] = with_truth(dataset)
-        measured = self._measure(sets, methods)
+        workers = foresee([item for items in sets.values() for item in items], self.workers)
+        measured = self._measure(sets, methods, workers)
         failures = [failure for one in measured.values() for failure in one.failures]
         if not any(one.results for one in measured.values()):
             return status_after(failures) or SOME_FAILED
         self._write_results(measured)  # first: it took long, and what follows may fail
-        self._write_tables(self._tables(measured))
+        self._write_tables(self._tables(measured, workers))
         return status_after(failures)
 
     def _measure(
-        self, sets: Mapping[str, Sequence[DatasetItem]], methods: Sequence[Method]
+        self, sets: Mapping[str, Sequence[DatasetItem]], methods: Sequence[Method], workers: int
     ) -> dict[str, Compared]:
         from skyline_viz.methods.testing import compare_methods  # noqa: PLC0415
 
         return {
-            name: compare_methods(
-                items, methods, folds=self.folds, seed=self.seed, workers=self.workers
-            )
+            name: compare_methods(items, methods, folds=self.folds, seed=self.seed, workers=workers)
             for name, items in sets.items()
         }
 
-    def _tables(self, measured: dict[str, Compared]) -> list[Table]:
+    def _tables(self, measured: dict[str, Compared], workers: int) -> list[Table]:
         from skyline_viz import tables  # noqa: PLC0415
         from skyline_viz.methods.timing import time_methods  # noqa: PLC0415
 
@@ -104,8 +108,8 @@ class Tables:
         if not self.no_studies:
             say("filter sizes and training sets ...")
             studies = [
-                tables.table_3(sets, self.folds, self.seed, self.workers),
-                tables.table_4(sets, self.seed, self.workers),
+                tables.table_3(sets, self.folds, self.seed, workers),
+                tables.table_4(sets, self.seed, workers),
             ]
         say("times ...")
         compared = max(measured.values(), key=lambda one: len(one.fitted))

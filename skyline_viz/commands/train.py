@@ -11,8 +11,10 @@ import tyro
 from skyline_viz.commands.inputs import output_folder, with_truth
 from skyline_viz.commands.messages import GOOD, UsageError, counted, status_after, tell
 from skyline_viz.commands.settings import Folder, Preset
+from skyline_viz.commands.sizes import MaxMegapixels, foresee
 from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import TrainingConfig
+from skyline_viz.memory import MAX_MEGAPIXELS
 from skyline_viz.methods.names import MethodName
 
 if TYPE_CHECKING:
@@ -50,7 +52,10 @@ class Train:
     """Where training.detector starts from: the best that is known, or the published method."""
 
     workers: int = 0
-    """Processes to work in; 0 chooses by the number of photos."""
+    """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
 
     training: TrainingConfig = field(default_factory=TrainingConfig)
     """Single settings of the training."""
@@ -75,7 +80,11 @@ class Train:
         from skyline_viz.evaluation import train_on  # noqa: PLC0415
 
         bank, failures = train_on(
-            items, self.training, seed=self.seed, dataset=dataset.name, workers=self.workers
+            items,
+            self.training,
+            seed=self.seed,
+            dataset=dataset.name,
+            workers=foresee(items, self.workers),
         )
         bank.save(self.out)
         tell(f"photos used   {bank.provenance.images} of {len(dataset)} in {dataset.name}")
@@ -98,6 +107,7 @@ class Train:
 
         if self.training != TrainingConfig():
             raise UsageError(f"--preset and --training are for our filter bank, not {self.method}.")
+        foresee(items)
         method = make_method(self.method)
         if not isinstance(method, LearnedMethod):
             raise UsageError(f"the method {self.method} has nothing to learn.")

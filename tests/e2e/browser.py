@@ -12,11 +12,11 @@ FLAGS = ["--no-sandbox"]
 
 
 @contextmanager
-def chromium():
+def chromium(flags=()):
     """The system's Chromium, or Playwright's own where there is none."""
     path = next(filter(None, map(shutil.which, BROWSERS)), None)
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        browser = playwright.chromium.launch(executable_path=path, args=[*FLAGS, *flags])
         yield browser
         browser.close()
 

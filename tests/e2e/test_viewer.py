@@ -2,7 +2,6 @@
 
 import re
 import subprocess
-import urllib.request
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +15,6 @@ from skyline_viz.viewer import (
     PROGRAM,
     ViewerError,
     headless_viewer,
-    serve,
     settled_picture,
     show_tab,
     tab_names,
@@ -75,20 +73,6 @@ def test_an_unknown_tab_is_one_sentence(viewer):
 
 def test_nothing_listens_beyond_this_machine(viewer):
     assert {address for _, address, _ in listening()} == {"127.0.0.1"}
-
-
-def test_serving_to_a_browser_on_this_machine(recording):
-    process, address = serve([recording])
-    try:
-        assert address.startswith("http://127.0.0.1:")
-        with urllib.request.urlopen(address, timeout=20) as page:
-            assert page.status == 200
-            assert b"rerun" in page.read().lower()
-        assert {one for _, one, _ in listening()} == {"127.0.0.1"}
-        assert process.poll() is None
-    finally:
-        process.terminate()
-        process.wait(20)
 
 
 def test_hovering_a_pixel_tells_its_value_and_unit(viewer):

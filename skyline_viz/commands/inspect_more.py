@@ -1,0 +1,95 @@
+"""What ``skyline-viz inspect`` logs besides a detection: its diagnosis, other methods, sweeps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from skyline_viz.commands.messages import tell
+from skyline_viz.progress import ProgressBar
+
+if TYPE_CHECKING:
+    import rerun as rr
+
+    from skyline_viz.blueprints import MethodContents
+    from skyline_viz.detection import Detection
+    from skyline_viz.detector import FilterDetection
+    from skyline_viz.diagnosis import Diagnosis
+    from skyline_viz.filter_bank import FilterBank
+    from skyline_viz.methods.protocol import Method
+    from skyline_viz.recording import Fidelity
+    from skyline_viz.skyline import Skyline
+    from skyline_viz.sweep import Sweep
+
+_WARM = 64  # rows and columns of a detection before the timed one
+
+
+def log_diagnosis(
+    recording: rr.RecordingStream, found: Detection, truth: Skyline, name: str
+) -> Diagnosis:
+    """Find out why a detection went wrong, and log it where it did."""
+    from skyline_viz.diagnosis import diagnose  # noqa: PLC0415
+    from skyline_viz.diagnosis_recording import log_diagnosis as log_it  # noqa: PLC0415
+
+    diagnosis = diagnose(found, truth)
+    if not diagnosis.right:
+        log_it(recording, diagnosis, found, truth, name)
+    return diagnosis
+
+
+def log_methods(
+    recording: rr.RecordingStream,
+    found: Detection,
+    methods: Sequence[Method],
+    truth: Skyline | None,
+    fidelity: Fidelity,
+) -> tuple[MethodContents, ...]:
+    """Detect with other methods and log it; return what the recording now holds of them."""
+    if not methods:
+        return ()
+    from skyline_viz.blueprints import MethodContents  # noqa: PLC0415
+    from skyline_viz.detector import FilterDetection  # noqa: PLC0415
+    from skyline_viz.method_recording import log_methods as log_them  # noqa: PLC0415
+
+    for method in methods:  # the first time includes loading compiled loops
+        method.detect(found.photo[:_WARM, :_WARM].copy())
+    others = [method.detect(found.photo) for method in methods]
+    log_them(recording, found, others, truth, fidelity)
+    return tuple(
+        MethodContents(
+            one.method,
+            filters=isinstance(one, FilterDetection),
+            edges=not one.edges.all(),
+            maps=tuple(one.maps),
+        )
+        for one in others
+    )
+
+
+def begin_sweeps(
+    recording: rr.RecordingStream, found: FilterDetection, sizes: Sequence[FilterBank]
+) -> list[Sweep]:
+    """Choose what to sweep; what is logged from now on is there on all of the timelines."""
+    from skyline_viz.sweep import setting_sweeps, size_sweep  # noqa: PLC0415
+
+    sweeps = setting_sweeps(found)
+    if sizes:
+        sweeps.append(size_sweep(found, sizes))
+    else:
+        tell("The filter size is not swept: name a data set to train on with --sweep-training.")
+    for sweep in sweeps:
+        recording.set_time(sweep.timeline, sequence=sweep.steps[0].at)
+    return sweeps
+
+
+def log_sweeps(
+    recording: rr.RecordingStream,
+    sweeps: list[Sweep],
+    found: FilterDetection,
+    truth: Skyline | None,
+) -> None:
+    """Detect with all values, and log it."""
+    from skyline_viz.sweep_recording import log_sweeps as log_them  # noqa: PLC0415
+
+    with ProgressBar(sum(len(sweep.steps) for sweep in sweeps), "values") as bar:
+        log_them(recording, sweeps, found, truth, bar.advance)
