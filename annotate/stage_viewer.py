@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import subprocess
-import tempfile
 import threading
-from pathlib import Path
+from contextlib import ExitStack
 
+from skyline_viz.aftermath import ended, passing_folder
 from skyline_viz.detection import Detection
 from skyline_viz.recording import log_detection, new_recording
 from skyline_viz.skyline import Skyline
@@ -17,7 +17,8 @@ class StageViewer:
     """Serves the stages of one photo at a time to a browser on this machine."""
 
     def __init__(self) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="skyline-stages-")
+        self._around = ExitStack()
+        self._folder = self._around.enter_context(passing_folder("skyline-stages-"))
         self._process: subprocess.Popen[bytes] | None = None
         self._lock = threading.Lock()
 
@@ -34,7 +35,7 @@ class StageViewer:
         """
         with self._lock:
             self._stop()
-            file = Path(self._folder.name) / "stages.rrd"
+            file = self._folder / "stages.rrd"
             with new_recording(file, name) as recording:
                 log_detection(recording, detection, line, name=name)
             self._process, address = serve([file])
@@ -44,10 +45,9 @@ class StageViewer:
         """Stop serving."""
         with self._lock:
             self._stop()
-            self._folder.cleanup()
+            self._around.close()
 
     def _stop(self) -> None:
         if self._process:
-            self._process.terminate()
-            self._process.wait()
+            ended(self._process)
             self._process = None

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from multiprocessing.synchronize import Event
 from typing import Protocol, TypeVar
 
+from skyline_viz import aftermath
 from skyline_viz.progress import ProgressBar
 
 _HANDFUL = 24
@@ -21,8 +22,9 @@ _HANDFUL = 24
 _MOST_WORKERS = 4
 """Processes at most, unless asked for more: each holds a photo and all its stages."""
 
-_FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS})
-"""Errors of the disk, not of a photo: no later photo could be written either."""
+_FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EFBIG})
+"""Errors of the disk, not of a photo: no later photo could be written either. The last is that of a
+limit that was set for a process."""
 
 
 class Named(Protocol):
@@ -160,7 +162,8 @@ def _in_processes(
 ) -> Generator[Value | Failure, None, None]:
     context = multiprocessing.get_context("spawn")  # works everywhere, and inherits no threads
     stop = context.Event()
-    pool = ProcessPoolExecutor(workers, context, initializer=_prepare_worker, initargs=(stop,))
+    known = (stop, aftermath.for_workers())
+    pool = ProcessPoolExecutor(workers, context, initializer=_prepare_worker, initargs=known)
     waiting: deque[Future[Value | Failure]] = deque()
     coming = iter(tasks)
     try:
@@ -189,7 +192,8 @@ class _Worker:
     """Set when nobody waits for results any more."""
 
 
-def _prepare_worker(stop: Event) -> None:
+def _prepare_worker(stop: Event, news: aftermath.News) -> None:
+    aftermath.join(news)
     import cv2  # noqa: PLC0415  # only processes that work on photos pay for it
 
     cv2.setNumThreads(1)
@@ -204,11 +208,14 @@ def _attempt_in_worker(function: Callable[[Task], Value], task: Task) -> Value |
 
 @contextlib.contextmanager
 def _workers_ignore_interrupts() -> Iterator[None]:
-    """Block Ctrl-C while processes start, which inherit this; here it arrives a moment later."""
+    """Block Ctrl-C and SIGHUP while processes start, which inherit this; here they arrive later.
+
+    Both reach all processes of a terminal, and workers are to finish their photos.
+    """
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP})
     try:
         yield
     finally:

@@ -11,10 +11,13 @@ at y = row.
 
 from __future__ import annotations
 
+import errno
 import os
+import struct
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
+from pathlib import Path
 from typing import Literal, TypeAlias
 
 import cv2
@@ -52,6 +55,10 @@ of every edge pixel, to four digits on hovering, and exact as numbers.
 """
 
 _BATCH = 1 << 18  # bytes: less than a map
+_FOOTER = struct.Struct("<QQ4x8s4x")
+"""How a recording ends: where its table of contents begins, its length, a checksum, the mark."""
+_FOOTER_MARK = b"RRF2FOOT"
+
 _RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
 
 _LEAN_JPEG = 75  # quality: at 85 the photo takes a third of a lean recording
@@ -66,6 +73,9 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
     Args:
         path: The ``.rrd`` file.
         name: What the viewer calls the recording.
+
+    Raises:
+        OSError: The disk is full; what was at `path` is untouched.
     """
     interrupted: KeyboardInterrupt | None = None
     # streams that nobody holds any more keep what was logged, 2 MB a photo, until told to let go
@@ -83,8 +93,28 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
             interrupted = stopped
         finally:
             recording.disconnect()  # writes the footer, without which the file is not whole
+        _check_whole(temporary)
     if interrupted:
         raise interrupted
+
+
+def _check_whole(file: Path) -> None:
+    """Refuse a recording that could not be written: Rerun's thread that writes keeps it to itself.
+
+    Raises:
+        OSError: What keeps the file from growing, or that it breaks off.
+    """
+    size = file.stat().st_size
+    with file.open("r+b") as opened:
+        opened.seek(max(size - _FOOTER.size, 0))
+        tail = opened.read()
+        if len(tail) == _FOOTER.size:
+            start, length, mark = _FOOTER.unpack(tail)
+            if mark == _FOOTER_MARK and start + length + _FOOTER.size == size:
+                return
+        opened.write(bytes(_BATCH))  # which meets what kept Rerun from writing
+        opened.flush()
+    raise OSError(errno.EIO, "the recording breaks off", str(file))
 
 
 def log_detection(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import secrets
 import socket
 import webbrowser
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -17,6 +16,7 @@ from skyline_viz.commands.messages import GOOD, UsageError, counted, say
 from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detector
 from skyline_viz.config import DetectorConfig
+from skyline_viz.endings import told_by_signals
 
 if TYPE_CHECKING:
     from annotate.workbench import Workbench
@@ -171,8 +171,13 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
     config = uvicorn.Config(
         app, log_level="warning", access_log=False, server_header=False, lifespan="on"
     )
-    with suppress(KeyboardInterrupt):  # which the server raises again when it has stopped
-        uvicorn.Server(config).run(sockets=[listener])
+    server = uvicorn.Server(config)
+
+    def stop() -> None:
+        server.should_exit = True
+
+    with told_by_signals(stop):
+        server.run(sockets=[listener])
 
 
 def bound(host: str, port: int) -> socket.socket:

@@ -23,7 +23,6 @@ from __future__ import annotations
 
 import io
 import shutil
-import tempfile
 import zipfile
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -41,6 +40,7 @@ from annotate.formats.common import (
     one_each,
 )
 from annotate.labels import Label
+from skyline_viz.aftermath import passing_folder
 
 FORMATS: dict[str, tuple[Writer, Reader]] = {
     "mask": (masks.write_masks, masks.read_masks),
@@ -98,8 +98,8 @@ def export_labels(labels: Iterable[Label], photos: Path, out: Path, format: str)
                     f"{entry.label.name}: {format} cannot say which columns are not visible."
                 )
     out.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=".export-", dir=out.parent) as folder:
-        whole = Path(folder) / "whole"
+    with passing_folder(".export-", out.parent) as folder:
+        whole = folder / "whole"
         whole.mkdir()
         FORMATS[format][0](entries, whole)
         if out.exists():
@@ -111,8 +111,8 @@ def export_labels(labels: Iterable[Label], photos: Path, out: Path, format: str)
 def archive(labels: Iterable[Label], photos: Path, format: str) -> bytes:  # noqa: A002
     """Export labels into a ZIP file; what was left out is told in its ``notes.txt``."""
     packed = io.BytesIO()
-    with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(packed, "w") as file:
-        out = Path(folder) / "export"
+    with passing_folder() as folder, zipfile.ZipFile(packed, "w") as file:
+        out = folder / "export"
         export = export_labels(labels, photos, out, format)
         for path in sorted(out.rglob("*")):
             if path.is_file():

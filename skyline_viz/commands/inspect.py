@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
+from skyline_viz.aftermath import passing_folder
 from skyline_viz.batch import Failure, sentence
 from skyline_viz.commands.inputs import Input, collect, with_truth
 from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, status_after
@@ -163,8 +163,8 @@ class Inspect:
             folder.mkdir(parents=True, exist_ok=True)
             yield folder
         else:
-            with tempfile.TemporaryDirectory(prefix="skyline-viz-") as passing:
-                yield Path(passing)
+            with passing_folder() as folder:
+                yield folder
 
     def _record(
         self,

@@ -10,6 +10,7 @@ import os
 import sys
 import traceback
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any, Protocol
 
 import tyro
@@ -24,6 +25,10 @@ from skyline_viz.commands.messages import (
     USAGE,
     say,
 )
+from skyline_viz.endings import AskedToEnd, asked_by_signals
+
+_QUIET = "warn,re_log_encoding=off,re_sdk=off"
+"""Rerun tells in its own way of recordings that cannot be written; `new_recording` does in ours."""
 
 
 class Command(Protocol):
@@ -43,9 +48,15 @@ def run_program(
         parse: Turns the words after the name into a command.
         arguments: These words; those of this process unless given.
     """
+    os.environ.setdefault("RUST_LOG", _QUIET)
     try:
-        status = _run(program, parse, sys.argv[1:] if arguments is None else list(arguments))
-        sys.stdout.flush()
+        with asked_by_signals():
+            status = _run(program, parse, sys.argv[1:] if arguments is None else list(arguments))
+            sys.stdout.flush()
+    except AskedToEnd as asked:
+        with suppress(OSError):  # the terminal may be gone
+            say(f"ended by {asked}; every file that was written is whole.", program)
+        return 128 + asked.number
     except KeyboardInterrupt:
         say("interrupted; every file that was written is whole.", program)
         return INTERRUPTED
@@ -56,6 +67,9 @@ def run_program(
         if (known := _status_of(error)) is None:
             raise
         text = sentence(error)
+        if _stdout_is_full():
+            text = f"the output cannot be written: {text}"
+            _silence_stdout()
         say(text if text.endswith((".", "?", "!")) else f"{text}.", program)
         return known
     return status
@@ -117,6 +131,15 @@ def _status_of(error: Exception) -> int | None:
     if isinstance(error, ValueError | PhotoError):
         return USAGE
     return SOME_FAILED if isinstance(error, OSError | MemoryError | BatchError) else None
+
+
+def _stdout_is_full() -> bool:
+    """Whether what was printed could not be written, to a full disk for example."""
+    try:
+        sys.stdout.flush()
+    except (OSError, ValueError):
+        return True
+    return False
 
 
 def _silence_stdout() -> None:
