@@ -13,6 +13,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -121,14 +122,46 @@ def passing_folder(
         yield Path(folder)
 
 
+@contextmanager
+def passing_temporaries() -> Iterator[Path]:
+    """A folder that lasts as long as the block, for all that libraries put into such places.
+
+    For what runs in this process and is no Python, which asks the environment each time.
+    """
+    names = ("TMPDIR", "TEMP", "TMP")
+    before = {name: os.environ.get(name) for name in names}
+    with passing_folder() as folder:
+        os.environ.update(dict.fromkeys(names, str(folder)))
+        try:
+            yield folder
+        finally:
+            for name, value in before.items():
+                if value is None:
+                    del os.environ[name]
+                else:
+                    os.environ[name] = value
+
+
 def started(command: Sequence[str | os.PathLike[str]], **how: Any) -> subprocess.Popen[bytes]:  # noqa: ANN401
     """Start a process that ends with this one; takes what `subprocess.Popen` takes.
+
+    It gets a folder of its own for its temporary files, which goes with it: not every program
+    cleans up when it is ended. `ended` is to be called in any case.
 
     Raises:
         OSError: It cannot be started.
     """
-    process = subprocess.Popen(command, **how)  # noqa: S603
+    folder = tempfile.mkdtemp(prefix="skyline-viz-")
+    _WATCH.tell("+", folder)
+    places = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder)
+    environment = {**os.environ, **how.pop("env", {}), **places}
+    try:
+        process = subprocess.Popen(command, env=environment, **how)  # noqa: S603
+    except BaseException:
+        _remove(folder)
+        raise
     _WATCH.tell("*", process.pid)
+    _folders[process.pid] = folder
     return process
 
 
@@ -141,9 +174,17 @@ def ended(process: subprocess.Popen[Any]) -> None:
         process.kill()
         process.wait()
     _WATCH.tell("/", process.pid)
+    if folder := _folders.pop(process.pid, None):
+        _remove(folder)
+
+
+def _remove(folder: str) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    _WATCH.tell("-", folder)
 
 
 _GRACE = 10.0  # seconds
+_folders: dict[int, str] = {}
 
 News = Connection | None
 """What a worker process needs to join the janitor of the program that started it."""

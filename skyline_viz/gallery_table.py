@@ -16,7 +16,7 @@ import rerun.blueprint as rrb
 import rerun.blueprint.table as rrt
 
 from skyline_viz import entities
-from skyline_viz.aftermath import passing_folder
+from skyline_viz.aftermath import passing_temporaries
 from skyline_viz.blueprints import Contents, detection_blueprint
 from skyline_viz.causes import Cause
 from skyline_viz.gallery import Entry, Flag, Gallery
@@ -78,7 +78,7 @@ def served(
     files = [gallery.recording(entry.name) for entry in entries]
     flags = gallery.flags()
     with (
-        passing_folder() as folder,
+        passing_temporaries() as folder,
         rr.server.Server(host=LOOPBACK, port=free_port(), datasets={_DATASET: files}) as server,
     ):
         client = server.client()

@@ -80,7 +80,7 @@ def serve(sources: Sequence[str | Path]) -> tuple[subprocess.Popen[bytes], str]:
     deadline = monotonic() + _START_SECONDS
     while not _listens(page):
         if process.poll() is not None or monotonic() > deadline:
-            process.terminate()
+            ended(process)
             raise ViewerError("the viewer's web server did not start.")
         sleep(0.05)
     return process, address

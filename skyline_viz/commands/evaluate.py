@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from skyline_viz.batch import Failure
     from skyline_viz.datasets import Dataset, DatasetItem
     from skyline_viz.results import PhotoResult
+    from skyline_viz.resume import Kept
 
 
 @dataclass(frozen=True)
@@ -64,15 +65,23 @@ class Evaluate:
         items = with_truth(dataset)
         if self.out:
             output_folder(self.out, dataset)
+        from skyline_viz.resume import Kept  # noqa: PLC0415
+
+        kept = Kept.within(self.out)
         if self.methods.given:
-            return self._compare(dataset, items)
+            return self._compare(dataset, items, kept)
         from skyline_viz.evaluation import cross_validate, evaluate  # noqa: PLC0415
 
         if self.folds:
             how = f"{self.folds}-fold cross-validation"
             about: dict[str, object] = {"folds": self.folds, "seed": self.seed}
             results, failures = cross_validate(
-                items, self.folds, config=self.config, seed=self.seed, workers=self.workers
+                items,
+                self.folds,
+                config=self.config,
+                seed=self.seed,
+                workers=self.workers,
+                kept=kept,
             )
         else:
             detector = make_detector(self.bank, self.config)
@@ -81,17 +90,20 @@ class Evaluate:
             about = {"bank": asdict(provenance)}
             if provenance.dataset == dataset.name:
                 say(f"the bank was trained on {dataset.name}, so this is no test; see --folds.")
-            results, failures = evaluate(items, detector, workers=self.workers)
+            results, failures = evaluate(items, detector, workers=self.workers, kept=kept)
         title = f"{dataset.name}: {counted(len(results), 'photo')}, {how}"
+        if done := kept.said():
+            say(done)
         if self.out:
             self._write(dataset, title, about, results, failures)
+            kept.remove()
         if results:
             _print(title, results)
         if self.out:
             print(f"summary.json, photos.csv and histogram.png in {self.out}")
         return status_after(failures)
 
-    def _compare(self, dataset: Dataset, items: Sequence[DatasetItem]) -> int:
+    def _compare(self, dataset: Dataset, items: Sequence[DatasetItem], kept: Kept) -> int:
         """Evaluate the methods that were named."""
         from rich.console import Console  # noqa: PLC0415
 
@@ -104,8 +116,10 @@ class Evaluate:
             if not self.folds and learned_from(text) == dataset.name:
                 say(f"{text} was trained on {dataset.name}, so this is no test; see --folds.")
         found = compare_methods(
-            items, methods, folds=self.folds, seed=self.seed, workers=self.workers
+            items, methods, folds=self.folds, seed=self.seed, workers=self.workers, kept=kept
         )
+        if done := kept.said("detection"):
+            say(done)
         console = Console(highlight=False, width=110)
         with console.capture() as captured:
             how = f"{self.folds}-fold cross-validation" if self.folds else "as they are"
@@ -120,6 +134,7 @@ class Evaluate:
                 "failed": [asdict(failure) for failure in found.failures],
             }
             report.write_comparison(self.out, found.results, about)
+            kept.remove()
             print(f"methods.json and methods.csv in {self.out}")
         return status_after(found.failures)
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from skyline_viz.datasets import DatasetItem
     from skyline_viz.methods.protocol import Method
     from skyline_viz.methods.testing import Compared
+    from skyline_viz.resume import Kept
     from skyline_viz.tables import Table
 
 
@@ -55,6 +56,7 @@ class Tables:
         """Measure and write; return the exit status."""
         from skyline_viz.datasets import open_dataset  # noqa: PLC0415
         from skyline_viz.methods.registry import make_method  # noqa: PLC0415
+        from skyline_viz.resume import Kept  # noqa: PLC0415
 
         if not self.datasets:
             raise UsageError("which data sets? Name at least one folder.")
@@ -72,27 +74,32 @@ class Tables:
                 raise UsageError(f"two data sets are called {dataset.name}; rename a folder.")
             output_folder(self.out, dataset)
             sets[dataset.name] = with_truth(dataset)
-        measured = self._measure(sets, methods)
+        kept = Kept.within(self.out)
+        measured = self._measure(sets, methods, kept)
         failures = [failure for one in measured.values() for failure in one.failures]
         if not any(one.results for one in measured.values()):
             return status_after(failures) or SOME_FAILED
         self._write_results(measured)  # first: it took long, and what follows may fail
-        self._write_tables(self._tables(measured))
+        self._write_tables(self._tables(measured, kept))
+        kept.remove()
         return status_after(failures)
 
     def _measure(
-        self, sets: Mapping[str, Sequence[DatasetItem]], methods: Sequence[Method]
+        self, sets: Mapping[str, Sequence[DatasetItem]], methods: Sequence[Method], kept: Kept
     ) -> dict[str, Compared]:
         from skyline_viz.methods.testing import compare_methods  # noqa: PLC0415
 
-        return {
+        measured = {
             name: compare_methods(
-                items, methods, folds=self.folds, seed=self.seed, workers=self.workers
+                items, methods, folds=self.folds, seed=self.seed, workers=self.workers, kept=kept
             )
             for name, items in sets.items()
         }
+        if done := kept.said("detection"):
+            say(done)
+        return measured
 
-    def _tables(self, measured: dict[str, Compared]) -> list[Table]:
+    def _tables(self, measured: dict[str, Compared], kept: Kept) -> list[Table]:
         from skyline_viz import tables  # noqa: PLC0415
         from skyline_viz.methods.timing import time_methods  # noqa: PLC0415
 
@@ -101,8 +108,8 @@ class Tables:
         if not self.no_studies:
             say("filter sizes and training sets ...")
             studies = [
-                tables.table_3(sets, self.folds, self.seed, self.workers),
-                tables.table_4(sets, self.seed, self.workers),
+                tables.table_3(sets, self.folds, self.seed, self.workers, kept),
+                tables.table_4(sets, self.seed, self.workers, kept),
             ]
         say("times ...")
         compared = max(measured.values(), key=lambda one: len(one.fitted))
