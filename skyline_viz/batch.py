@@ -4,7 +4,6 @@ import contextlib
 import errno
 import multiprocessing
 import os
-import signal
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
@@ -14,6 +13,7 @@ from multiprocessing.synchronize import Event
 from typing import Protocol, TypeVar
 
 from skyline_viz import aftermath
+from skyline_viz.endings import held_back
 from skyline_viz.progress import ProgressBar
 
 _HANDFUL = 24
@@ -169,7 +169,9 @@ def _in_processes(
     try:
         while True:
             for task in coming:
-                with _workers_ignore_interrupts():
+                # both reach all processes of a terminal, and workers are to finish their photos:
+                # they inherit that these are held back
+                with held_back("SIGINT", "SIGHUP"):
                     waiting.append(pool.submit(_attempt_in_worker, function, task))
                 if len(waiting) >= 2 * workers:
                     break
@@ -204,19 +206,3 @@ def _attempt_in_worker(function: Callable[[Task], Value], task: Task) -> Value |
     if _Worker.stop and _Worker.stop.is_set():
         return Failure(task.name, "interrupted")
     return attempt(function, task)
-
-
-@contextlib.contextmanager
-def _workers_ignore_interrupts() -> Iterator[None]:
-    """Block Ctrl-C and SIGHUP while processes start, which inherit this; here they arrive later.
-
-    Both reach all processes of a terminal, and workers are to finish their photos.
-    """
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -49,6 +49,24 @@ def told_by_signals(tell: Callable[[], object]) -> Iterator[None]:
 
 
 @contextmanager
+def held_back(*names: str) -> Iterator[None]:
+    """Let signals arrive only after the block: here it must not break off.
+
+    Args:
+        names: Of the signals; all that ask to end unless given.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    numbers = [getattr(signal, name) for name in names] or ASKING
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
 def _handled(
     handler: Callable[[int, FrameType | None], object], numbers: list[int] | tuple[int, ...]
 ) -> Iterator[None]:

@@ -34,6 +34,7 @@ from skyline_viz.blueprints import Contents, detection_blueprint, stages_bluepri
 from skyline_viz.column_views import TRUTH_RADIUS, log_columns, log_line
 from skyline_viz.detection import Detection
 from skyline_viz.detector import FilterDetection
+from skyline_viz.endings import held_back
 from skyline_viz.files import replacing
 from skyline_viz.overlay import PATH, TRUTH
 from skyline_viz.report import report
@@ -83,7 +84,8 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
     with replacing(path) as temporary:
         batches = rr.ChunkBatcherConfig.DEFAULT()
         batches.flush_num_bytes = _BATCH  # compress maps while the next ones are made
-        recording = rr.RecordingStream(APPLICATION, recording_id=name, batcher_config=batches)
+        with held_back():  # half a stream complains when it goes
+            recording = rr.RecordingStream(APPLICATION, recording_id=name, batcher_config=batches)
         recording.set_log_time_enabled(False)  # else a photo would be a film of its stages
         recording.save(temporary)
         try:
