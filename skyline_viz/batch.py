@@ -22,7 +22,7 @@ _HANDFUL = 24
 _MOST_WORKERS = 4
 """Processes at most, unless asked for more: each holds a photo and all its stages."""
 
-_FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EFBIG})
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EFBIG})
 """Errors of the disk, not of a photo: no later photo could be written either. The last is that of a
 limit that was set for a process."""
 
@@ -119,7 +119,7 @@ def attempt(function: Callable[[Task], Value], task: Task) -> Value | Failure:
     try:
         return function(task)
     except OSError as error:
-        if error.errno in _FULL:
+        if error.errno in FULL:
             raise
         return Failure(task.name, sentence(error))
     except Exception as error:  # whatever is wrong with one photo, the others are worth their turn

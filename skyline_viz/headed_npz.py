@@ -121,7 +121,7 @@ class HeadedNpz:
             raise NpzError(f"its header takes {one.nbytes:,} bytes")
         document = json.loads(self.read("header").tobytes())
         if not isinstance(document, dict):
-            raise NpzError("its header is no JSON object")
+            raise NpzError("its header is no JSON")
         return document
 
 

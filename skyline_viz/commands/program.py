@@ -16,7 +16,7 @@ from typing import Any, Protocol
 import tyro
 
 from skyline_viz import __version__
-from skyline_viz.batch import BatchError, sentence
+from skyline_viz.batch import FULL, BatchError, sentence
 from skyline_viz.commands.messages import (
     BROKEN_PIPE,
     GOOD,
@@ -67,8 +67,8 @@ def run_program(
         if (known := _status_of(error)) is None:
             raise
         text = sentence(error)
-        if _stdout_is_full():
-            text = f"the output cannot be written: {text}"
+        if isinstance(error, OSError) and error.errno in FULL and not error.filename:
+            text = f"the output cannot be written: {text}"  # whoever writes files names them
             _silence_stdout()
         say(text if text.endswith((".", "?", "!")) else f"{text}.", program)
         return known
@@ -131,15 +131,6 @@ def _status_of(error: Exception) -> int | None:
     if isinstance(error, ValueError | PhotoError):
         return USAGE
     return SOME_FAILED if isinstance(error, OSError | MemoryError | BatchError) else None
-
-
-def _stdout_is_full() -> bool:
-    """Whether what was printed could not be written, to a full disk for example."""
-    try:
-        sys.stdout.flush()
-    except (OSError, ValueError):
-        return True
-    return False
 
 
 def _silence_stdout() -> None:
