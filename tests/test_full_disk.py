@@ -4,8 +4,6 @@ Files may not grow beyond a limit here, which the system tells a process of as i
 disk; that needs no rights and no disk.
 """
 
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -14,13 +12,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.rendering import render
 from tests.ends import write_set
-
-LIMITED = """
-import resource, sys
-from {program}.cli import main
-resource.setrlimit(resource.RLIMIT_FSIZE, ({most}, {most}))
-sys.exit(main(sys.argv[1:]))
-"""
+from tests.full import COMMANDS, fault_of, run
 
 
 @pytest.fixture(scope="module")
@@ -29,43 +21,9 @@ def data(tmp_path_factory):
     return write_set(tmp_path_factory.mktemp("data") / "hills", photos=4, size=(160, 120))
 
 
-def run(program, most, *words, stdout=subprocess.PIPE):
-    code = LIMITED.format(program=program, most=most)
-    command = [sys.executable, "-c", code, *map(str, words)]
-    return subprocess.run(command, stdout=stdout, stderr=subprocess.PIPE, text=True, check=False)
-
-
-COMMANDS = {
-    "detect": (100, "detect DATA --out OUT", ".csv"),
-    "detect --json": (1700, "detect DATA --out OUT --json", ".json"),
-    "detect with workers": (100, "detect DATA --out OUT --workers 2", ".csv"),
-    "evaluate": (100, "evaluate DATA --out OUT", ".json"),
-    "evaluate, at the end": (2000, "evaluate DATA --out OUT", "histogram.png"),
-    "evaluate methods": (100, "evaluate DATA --out OUT --method edges", ".json"),
-    "diagnose": (100, "diagnose DATA --out OUT", ".json"),
-    "tables": (100, "tables DATA --out OUT --method edges", ".json"),
-    "train": (5000, "train DATA --out OUT/bank.npz", "bank.npz"),
-    "gallery": (20_000, "gallery DATA --out OUT --serve", ".rrd"),
-    "inspect": (20_000, "inspect DATA --save OUT/a.rrd", "a.rrd"),
-    "render": (20_000, "render --out OUT", ".jpg"),
-}
-
-
 @pytest.mark.parametrize("name", COMMANDS)
 def test_one_sentence_and_no_half_file(name, data, tmp_path):
-    most, line, ending = COMMANDS[name]
-    out = tmp_path / "out"
-    out.mkdir()
-    words = [word.replace("DATA", str(data)).replace("OUT", str(out)) for word in line.split()]
-    done = run("skyline_viz", most, *words)
-    assert done.returncode == 1, done.stderr
-    said = done.stderr.strip().splitlines()[-1]
-    assert len(done.stderr.strip().splitlines()) == 1, done.stderr
-    assert said.startswith(f"skyline-viz: {out}")
-    assert said.endswith(f"{ending}: file too large.")
-    files = [path for path in out.rglob("*") if path.is_file()]
-    assert not [path for path in files if path.name.startswith(".")]
-    assert not [path for path in files if path.stat().st_size in (0, most)]
+    assert fault_of(name, data, tmp_path) == ""
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no disk that is always full")

@@ -47,7 +47,7 @@ def _files(folder: Path) -> list[Path]:
     models = {
         "sift-hog-edges": {**bias, "weights": np.zeros(LENGTH, np.float32)},
         "svm-dcsi": dense,
-        "svm-gdcsi": dense,
+        "svm-mdcsi": dense,
     }
     for name, model in models.items():
         method = make_method(name)
