@@ -233,7 +233,7 @@ def settled_picture(client: ViewerClient) -> Image.Image:
     """Picture of a viewer when nothing moves any more.
 
     A busy machine is waited for: as long as pictures change, or something is being loaded, for up
-    to ten minutes; a minute in which nothing happens is the end.
+    to ten minutes; a picture that stays blank for a minute is the end.
 
     Raises:
         ViewerError: It stays blank, or never settles.
@@ -241,7 +241,7 @@ def settled_picture(client: ViewerClient) -> Image.Image:
     before: np.ndarray | None = None
     same = 0
     deadline, changed = monotonic() + _PICTURE_SECONDS, monotonic()
-    while monotonic() < min(deadline, changed + _STILL_SECONDS):
+    while monotonic() < deadline:
         picture = Image.open(io.BytesIO(client.take_screenshot())).convert("RGB")
         now = np.asarray(picture)
         still = before is not None and np.array_equal(now, before)
@@ -251,10 +251,10 @@ def settled_picture(client: ViewerClient) -> Image.Image:
             return picture
         if loading or not still:
             changed = monotonic()
+        elif same >= _STEADY and monotonic() > changed + _STILL_SECONDS:
+            raise ViewerError(f"the viewer's picture stayed blank for {_STILL_SECONDS:.0f} s.")
         before = now
         sleep(0.15)  # maps are decoded in the background, between two pictures that agree
-    if before is not None and before.std() <= 1:
-        raise ViewerError(f"the viewer's picture stayed blank for {_STILL_SECONDS:.0f} s.")
     raise ViewerError(f"the viewer showed no steady picture within {_PICTURE_SECONDS:.0f} s.")
 
 
