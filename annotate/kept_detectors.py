@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import json
-import tempfile
 from dataclasses import asdict, dataclass
-from pathlib import Path
 
 from skyline_viz import __version__
+from skyline_viz.aftermath import passing_folder
 from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
 from skyline_viz.filter_bank import FilterBank
@@ -39,8 +38,8 @@ def pack(method: Method) -> KeptDetector:
 
 
 def _pack_method(method: Method) -> KeptDetector:
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "method.npz"
+    with passing_folder() as folder:
+        file = folder / "method.npz"
         save_method(method, file, Trained())
         kept = file.read_bytes()
     config = json.dumps({"method": method.name})
@@ -50,8 +49,8 @@ def _pack_method(method: Method) -> KeptDetector:
 
 
 def _pack_detector(detector: Detector) -> KeptDetector:
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "bank.npz"
+    with passing_folder() as folder:
+        file = folder / "bank.npz"
         detector.bank.save(file)
         bank = file.read_bytes()
     config = json.dumps(asdict(detector.config), sort_keys=True)
@@ -68,8 +67,8 @@ def unpack(config: str, bank: bytes) -> Method:
     >>> same.config == DetectorConfig()
     True
     """
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "bank.npz"
+    with passing_folder() as folder:
+        file = folder / "bank.npz"
         file.write_bytes(bank)
         settings = json.loads(config)
         if "method" in settings:

@@ -4,7 +4,6 @@ import contextlib
 import errno
 import multiprocessing
 import os
-import signal
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
@@ -13,6 +12,8 @@ from dataclasses import dataclass
 from multiprocessing.synchronize import Event
 from typing import Protocol, TypeVar
 
+from skyline_viz import aftermath
+from skyline_viz.endings import held_back
 from skyline_viz.memory import limit_photos, photo_limit
 from skyline_viz.notes import heard_by, note
 from skyline_viz.progress import ProgressBar
@@ -23,8 +24,9 @@ _HANDFUL = 24
 _MOST_WORKERS = 4
 """Processes at most, unless asked for more: each holds a photo and all its stages."""
 
-_FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS})
-"""Errors of the disk, not of a photo: no later photo could be written either."""
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EFBIG})
+"""Errors of the disk, not of a photo: no later photo could be written either. The last is that of a
+limit that was set for a process."""
 
 
 class Named(Protocol):
@@ -119,7 +121,7 @@ def attempt(function: Callable[[Task], Value], task: Task) -> Value | Failure:
     try:
         return function(task)
     except OSError as error:
-        if error.errno in _FULL:
+        if error.errno in FULL:
             raise
         return Failure(task.name, sentence(error))
     except Exception as error:  # whatever is wrong with one photo, the others are worth their turn
@@ -162,15 +164,16 @@ def _in_processes(
 ) -> Generator[Value | Failure, None, None]:
     context = multiprocessing.get_context("spawn")  # works everywhere, and inherits no threads
     stop = context.Event()
-    pool = ProcessPoolExecutor(
-        workers, context, initializer=_prepare_worker, initargs=(stop, photo_limit())
-    )
+    known = (stop, aftermath.for_workers(), photo_limit())
+    pool = ProcessPoolExecutor(workers, context, initializer=_prepare_worker, initargs=known)
     waiting: deque[Future[tuple[Value | Failure, list[str]]]] = deque()
     coming = iter(tasks)
     try:
         while True:
             for task in coming:
-                with _workers_ignore_interrupts():
+                # both reach all processes of a terminal, and workers are to finish their photos:
+                # they inherit that these are held back
+                with held_back("SIGINT", "SIGHUP"):
                     waiting.append(pool.submit(_attempt_in_worker, function, task))
                 if len(waiting) >= 2 * workers:
                     break
@@ -196,7 +199,8 @@ class _Worker:
     """Set when nobody waits for results any more."""
 
 
-def _prepare_worker(stop: Event, megapixels: float) -> None:
+def _prepare_worker(stop: Event, news: aftermath.News, megapixels: float) -> None:
+    aftermath.join(news)
     import cv2  # noqa: PLC0415  # only processes that work on photos pay for it
 
     cv2.setNumThreads(1)
@@ -213,16 +217,3 @@ def _attempt_in_worker(
     notes: list[str] = []
     with heard_by(notes.append):
         return attempt(function, task), notes
-
-
-@contextlib.contextmanager
-def _workers_ignore_interrupts() -> Iterator[None]:
-    """Block Ctrl-C while processes start, which inherit this; here it arrives a moment later."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)

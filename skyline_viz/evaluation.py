@@ -1,9 +1,10 @@
 """How good a detector is on a data set: a filter bank put to the test, and cross-validation."""
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from functools import cache, partial, reduce
 from operator import add
+from typing import Any
 
 import numpy as np
 
@@ -11,15 +12,20 @@ from skyline_viz.batch import Failure, run
 from skyline_viz.config import FILTER_SIZES, DetectorConfig, TrainingConfig
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.detector import Detector
-from skyline_viz.filter_bank import FilterBank
+from skyline_viz.filter_bank import FilterBank, FilterBankError
 from skyline_viz.methods.protocol import Method
 from skyline_viz.results import PhotoResult
+from skyline_viz.resume import Codec, Kept, digest_of, digest_of_item, digest_of_method
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.training import GramMatrices, gather, solve
 
 
 def evaluate(
-    items: Sequence[DatasetItem], detector: Detector, *, workers: int = 1
+    items: Sequence[DatasetItem],
+    detector: Detector,
+    *,
+    workers: int = 1,
+    kept: Kept | None = None,
 ) -> tuple[list[PhotoResult], list[Failure]]:
     """Detect the skylines of photos that have a truth, and compare.
 
@@ -27,11 +33,13 @@ def evaluate(
         items: Photos with truth.
         detector: The detector.
         workers: Number of processes, see `batch.run`.
+        kept: Where finished photos are kept; nowhere unless given.
 
     Returns:
         The results in the order of `items`, and the photos that failed.
     """
-    return _parted(run(partial(_detect_and_compare, detector), items, workers=workers))
+    tests = tests_of(items, {item.name: detector for item in items}, kept)
+    return run_tests(tests, workers, kept)
 
 
 def cross_validate(
@@ -42,6 +50,7 @@ def cross_validate(
     training: TrainingConfig | None = None,
     seed: int = 0,
     workers: int = 1,
+    kept: Kept | None = None,
 ) -> tuple[list[PhotoResult], list[Failure]]:
     """Test each photo with a filter bank that was trained on the photos of all other folds.
 
@@ -55,6 +64,7 @@ def cross_validate(
         training: How to train; unless given, with the edges of `config`.
         seed: Seed of the negative samples.
         workers: Number of processes, see `batch.run`.
+        kept: Where finished photos and trained banks are kept; nowhere unless given.
 
     Returns:
         The results by name, and the photos that failed.
@@ -63,11 +73,10 @@ def cross_validate(
         ValueError: There are too few photos for so many folds.
     """
     detectors, failures = fold_detectors(
-        items, folds, config=config, training=training, seed=seed, workers=workers
+        items, folds, config=config, training=training, seed=seed, workers=workers, kept=kept
     )
-    tests = [Test(item, detectors[item.name]) for item in items if item.name in detectors]
-    tests.sort(key=lambda test: test.name)
-    results, more = _parted(run(test_photo, tests, workers=workers))
+    tests = sorted(tests_of(items, detectors, kept), key=lambda test: test.name)
+    results, more = run_tests(tests, workers, kept)
     return results, failures + more
 
 
@@ -79,6 +88,7 @@ def fold_detectors(
     training: TrainingConfig | None = None,
     seed: int = 0,
     workers: int = 1,
+    kept: Kept | None = None,
 ) -> tuple[dict[str, Detector], list[Failure]]:
     """For each photo a detector that was trained on the photos of all other folds.
 
@@ -95,6 +105,13 @@ def fold_detectors(
         raise ValueError(f"folds is a number from 2 to the {len(items)} photos, not {folds}")
     config = config or DetectorConfig()
     training = training or TrainingConfig(detector=config)
+    key = ""
+    if kept and kept.folder:
+        contents = [_content(item) for item in items]
+        key = digest_of("folds", folds, seed, training, contents)
+        if known := _kept_banks(kept, key, folds):
+            banks, of, failed = known
+            return {name: Detector(banks[fold], config) for name, fold in of.items()}, failed
     sums = [GramMatrices.empty(training)] * folds
     usable: list[tuple[int, DatasetItem]] = []
     failures: list[Failure] = []
@@ -110,7 +127,34 @@ def fold_detectors(
         others = reduce(add, (gram for other, gram in enumerate(sums) if other != fold))
         detector = Detector(solve(others, seed, training), config)
         detectors |= {item.name: detector for of, item in usable if of == fold}
+        if kept and kept.folder:
+            detector.bank.save(kept.folder / f"{key}-{fold}.npz")
+    if kept and kept.folder:
+        told = [[failure.name, failure.reason] for failure in failures]
+        kept.keep(key, {"of": {item.name: fold for fold, item in usable}, "failed": told})
     return detectors, failures
+
+
+def _kept_banks(
+    kept: Kept, key: str, folds: int
+) -> tuple[list[FilterBank], dict[str, int], list[Failure]] | None:
+    """Banks that an earlier run has trained, the fold of each photo, and photos that failed."""
+    record = kept.find(key)
+    if record is None or kept.folder is None:
+        return None
+    try:
+        banks = [FilterBank.load(kept.folder / f"{key}-{fold}.npz") for fold in range(folds)]
+    except FilterBankError:
+        return None
+    return banks, record["of"], [Failure(name, reason) for name, reason in record["failed"]]
+
+
+def _content(item: DatasetItem) -> str:
+    """Digest of a photo; of one that cannot be read, which fails in its turn, of its name."""
+    try:
+        return digest_of_item("", item)
+    except OSError:
+        return item.name
 
 
 def train_on(
@@ -202,11 +246,56 @@ class Test:
 
     item: DatasetItem
     detector: Method
+    digest: str = ""
+    """Of the detector, where results are kept."""
 
     @property
     def name(self) -> str:
         """The photo's name."""
         return self.item.name
+
+
+def tests_of(
+    items: Iterable[DatasetItem], detectors: Mapping[str, Method], kept: Kept | None = None
+) -> list[Test]:
+    """The photos that have a detector, by their names, each with its own."""
+    digests: dict[int, str] = {}
+    if kept and kept.folder:
+        different = {id(one): one for one in detectors.values()}
+        digests = {number: digest_of_method(one) for number, one in different.items()}
+    pairs = [(item, detectors[item.name]) for item in items if item.name in detectors]
+    return [Test(item, one, digests.get(id(one), "")) for item, one in pairs]
+
+
+def run_tests(
+    tests: Sequence[Test], workers: int = 1, kept: Kept | None = None, title: str = "photos"
+) -> tuple[list[PhotoResult], list[Failure]]:
+    """Results in order, and the photos that failed.
+
+    Args:
+        tests: Photos and their detectors.
+        workers: Number of processes, see `batch.run`.
+        kept: Where finished photos are kept; nowhere unless given.
+        title: What is counted, for the progress bar.
+    """
+    codec: Codec[PhotoResult] = Codec(asdict, _result)
+    key, kept = partial(key_of, "result"), kept or Kept()
+    outcomes = kept.run(test_photo, tests, key, codec, workers=workers, title=title)
+    return _parted(outcomes)
+
+
+def key_of(what: str, test: Test) -> str:
+    """Digest of all that a result is made from.
+
+    Args:
+        what: Kind and settings of the result.
+        test: The photo and its detector.
+    """
+    return digest_of_item(f"{what} {test.digest}", test.item)
+
+
+def _result(record: dict[str, Any]) -> PhotoResult:
+    return PhotoResult(**record)
 
 
 def test_photo(test: Test) -> PhotoResult:

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from skyline_viz.aftermath import passing
+
 _UNABLE = {errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.EACCES, errno.EPERM}
 
 
@@ -30,14 +32,20 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     target = Path(path)
     make_folder(target.parent)
     temporary = target.with_name(f".{secrets.token_hex(8)}{target.suffix}")
-    temporary.touch(exist_ok=False)  # not tempfile, whose files only their owner may read
     try:
-        yield temporary
-        flush(temporary)
-        temporary.replace(target)
-        flush(target.parent)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
+        with passing(temporary):
+            temporary.touch(exist_ok=False)  # not tempfile, whose files only their owner may read
+            try:
+                yield temporary
+                flush(temporary)
+                temporary.replace(target)
+                flush(target.parent)
+            except BaseException:
+                temporary.unlink(missing_ok=True)
+                raise
+    except OSError as error:  # a write says that the disk is full, and not which file that meets
+        if error.errno is not None and error.filename in (None, temporary, str(temporary)):
+            error.filename = str(target)
         raise
 
 

@@ -2,12 +2,10 @@
 
 import json
 import os
-import struct
-import zipfile
-import zlib
-from dataclasses import asdict, dataclass, field
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
 from importlib import resources
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +14,7 @@ from skyline_viz.arrays import F32, read_only
 from skyline_viz.bins import Bins
 from skyline_viz.config import FILTER_SIZES
 from skyline_viz.files import replacing
+from skyline_viz.headed_npz import NpzError, Stored, opened
 from skyline_viz.terrain import FEATURES
 
 FORMAT = "skyline-viz filter bank"
@@ -23,13 +22,13 @@ VERSION = 1
 STARVED_SAMPLES = 50
 """A bin is starved when fewer training samples than this fell into it."""
 
-_DAMAGE = (
-    *(OSError, ValueError, LookupError, TypeError, EOFError, RuntimeError, ArithmeticError),
-    *(MemoryError, zipfile.BadZipFile, zlib.error, struct.error),
-)  # what numpy, zipfile and json raise on damaged files
+_MOST_BYTES = 1 << 26  # that a bank may take: a thousand bins of the largest filters take 1 MB
 
-
-_DTYPES = (np.dtype(np.float32), np.dtype(np.int64), np.dtype(np.float32))
+_DTYPES = {
+    "filters": np.dtype(np.float32),
+    "samples": np.dtype(np.int64),
+    "terrain": np.dtype(np.float32),
+}
 
 
 class FilterBankError(ValueError):
@@ -135,33 +134,22 @@ class FilterBank:
             FilterBankError: Missing, damaged, another kind of file, or of a newer version.
         """
         try:
-            # np.load, given a path, leaves damaged files open
-            with Path(path).open("rb") as file:
-                if not zipfile.is_zipfile(file):
-                    raise FilterBankError(f"{path} is damaged or not a filter bank.")
-            with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as archive:
-                if "header" not in archive:
-                    raise FilterBankError(f"{path} is not a filter bank.")
-                header = json.loads(archive["header"].tobytes())
-                if not isinstance(header, dict) or header.get("format") != FORMAT:
+            with opened(path, _MOST_BYTES) as file:
+                header = file.header
+                if header.get("format") != FORMAT:
                     raise FilterBankError(f"{path} is not a filter bank.")
                 if header.get("version") != VERSION:
                     raise FilterBankError(
-                        f"{path} is a filter bank of version {header.get('version')}; "
+                        f"{path} is a filter bank of version {str(header.get('version'))[:20]}; "
                         f"this program reads version {VERSION}."
                     )
-                filters, samples = archive["filters"], archive["samples"]
-                terrain = archive["terrain"]
-                if (filters.dtype, samples.dtype, terrain.dtype) != _DTYPES:
-                    raise FilterBankError(f"{path} is damaged: its arrays have other types.")
-                bins = Bins(**header["bins"])
-                provenance = Provenance(**header["provenance"])
+                bins, provenance = _described(header)
+                _check_announced(file.arrays, bins.count)
+                filters, samples, terrain = (file.read(name) for name in _DTYPES)
         except FileNotFoundError:
             raise FilterBankError(f"{path} does not exist.") from None
-        except FilterBankError:
-            raise
-        except _DAMAGE as error:
-            raise FilterBankError(f"{path} is damaged or not a filter bank.") from error
+        except NpzError as error:
+            raise FilterBankError(f"{path} is damaged or not a filter bank: {error}.") from error
         try:
             return cls(filters, samples, terrain, bins, provenance)
         except (ValueError, TypeError) as error:
@@ -172,3 +160,42 @@ class FilterBank:
         """Return the shipped filter bank."""
         with resources.as_file(resources.files("skyline_viz") / "filter_bank.npz") as path:
             return cls.load(path)
+
+
+def _described(header: dict[str, Any]) -> tuple[Bins, Provenance]:
+    """Bins and provenance as a header tells them.
+
+    Raises:
+        NpzError: It tells something else.
+    """
+    try:
+        bins, told = Bins(**header["bins"]), header["provenance"]
+        kinds = {one.name: type(one.default) for one in fields(Provenance)}
+        for name, value in told.items():
+            wanted = (int, float) if kinds[name] is float else kinds[name]
+            if not isinstance(value, wanted) or isinstance(value, bool):
+                raise NpzError(f"its header tells no {name}")
+        return bins, Provenance(**told)
+    except NpzError:
+        raise
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
+        raise NpzError("its header tells no bins or no provenance") from error
+
+
+def _check_announced(arrays: Mapping[str, Stored], count: int) -> None:
+    """Refuse what is not a bank of so many bins, before a byte of it is unpacked.
+
+    Raises:
+        NpzError: The message names the array.
+    """
+    sides = arrays["filters"].shape[-1:] if "filters" in arrays else ()
+    shapes = {"filters": (count, *sides, *sides), "samples": (count,), "terrain": (FEATURES,)}
+    for name, dtype in _DTYPES.items():
+        if name not in arrays:
+            raise NpzError(f"its {name} is missing")
+        if arrays[name].dtype != dtype:
+            raise NpzError(f"its {name} has another type")
+        if arrays[name].shape != shapes[name]:
+            raise NpzError(f"its {name} has the shape {arrays[name].shape}, not {shapes[name]}")
+    if more := set(arrays) - set(_DTYPES):
+        raise NpzError(f"it holds {min(more)[:40]}, which no bank has")

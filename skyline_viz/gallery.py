@@ -12,7 +12,6 @@ or the configuration has changed since, so a run that was interrupted goes on wh
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -27,16 +26,15 @@ from skyline_viz.batch import Failure, run
 from skyline_viz.causes import Cause
 from skyline_viz.comparison import log_comparison
 from skyline_viz.datasets import DatasetItem
-from skyline_viz.detector import Detector
 from skyline_viz.diagnosis import diagnose
 from skyline_viz.diagnosis_recording import log_diagnosis
 from skyline_viz.evaluation import warm_up
 from skyline_viz.files import write_text
 from skyline_viz.methods.protocol import Method
-from skyline_viz.methods.registry import method_digest
 from skyline_viz.names import recording_id
 from skyline_viz.recording import log_detection, new_recording
 from skyline_viz.report import listed_segments
+from skyline_viz.resume import digest_of_files, digest_of_method
 
 VERSION = 3
 """Of recordings and gallery.json; all of an earlier one are made anew."""
@@ -199,7 +197,8 @@ class Gallery:
             GalleryError: The gallery's file is damaged.
         """
         known = self.entries()
-        looks = _Looks(method, beside, _digest_of(method) + (_digest_of(beside) if beside else ""))
+        digests = [digest_of_method(one, str(VERSION)) for one in (method, beside) if one]
+        looks = _Looks(method, beside, "".join(digests))
         tasks = [_Task(shot.name, shot.item, known.get(shot.name)) for shot in shots]
         entries = {shot.name: known[shot.name] for shot in shots if shot.name in known}
         saved = monotonic()
@@ -251,7 +250,7 @@ class _Looks:
 
 def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     item = task.item
-    made_from = _digest_of_files(looks.digest, item)
+    made_from = digest_of_files(looks.digest, item)
     file = gallery.recording(task.name)
     if task.known and task.known.made_from == made_from and file.exists():
         return replace(task.known, photo=str(item.photo_path))
@@ -278,26 +277,6 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     photo_file = str(item.photo_path)
     about = {"method": detection.method, "causes": causes, **against, **vars(verdict)}
     return Entry(task.name, photo_file, made_from, **about)
-
-
-def _digest_of(method: Method) -> str:
-    if not isinstance(method, Detector):
-        return method_digest(method)
-    bank, detector = method.bank, method
-    digest = hashlib.sha256(f"{VERSION} {detector.config} {bank.bins} {bank.provenance}".encode())
-    for array in (bank.filters, bank.samples, bank.terrain):
-        digest.update(array.tobytes())
-    return digest.hexdigest()
-
-
-def _digest_of_files(start: str, item: DatasetItem) -> str:
-    reading = "" if item.sky is None and item.terrain is None else f"{item.sky} {item.terrain}"
-    digest = hashlib.sha256((start + reading).encode())
-    for path in (item.photo_path, item.truth_path):
-        if path is not None:
-            with path.open("rb") as file:
-                digest.update(hashlib.file_digest(file, "sha256").digest())
-    return digest.hexdigest()
 
 
 def _read(path: Path, key: str, version: int) -> list[dict[str, Any]]:

@@ -5,11 +5,9 @@ The only module that uses ``rerun.blueprint.table``, which Rerun calls unstable.
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
@@ -18,6 +16,7 @@ import rerun.blueprint as rrb
 import rerun.blueprint.table as rrt
 
 from skyline_viz import entities
+from skyline_viz.aftermath import passing_temporaries
 from skyline_viz.blueprints import Contents, detection_blueprint
 from skyline_viz.causes import Cause
 from skyline_viz.gallery import Entry, Flag, Gallery
@@ -90,12 +89,12 @@ def served(
     flags = gallery.flags()
     names = {recording_id(entry.name): entry.name for entry in entries}
     with (
-        tempfile.TemporaryDirectory(prefix="skyline-viz-") as folder,
+        passing_temporaries() as folder,
         rr.server.Server(host=LOOPBACK, port=free_port(), datasets={_DATASET: files}) as server,
     ):
         client = server.client()
         photos = client.get_dataset(_DATASET)
-        layout = Path(folder) / "stages.rbl"
+        layout = folder / "stages.rbl"
         compared = next((entry.compared for entry in entries), "")
         contents = Contents(
             height=519,
@@ -111,7 +110,7 @@ def served(
         photos.register_blueprint(layout.as_uri())
         table = client.create_table(_TABLE, _SCHEMA)
         table.append(**_columns(entries, flags, photos))
-        cards = Path(folder) / "cards.rbl"
+        cards = folder / "cards.rbl"
         _cards(truth, cause, compared).save(_TABLE, cards)
         table.register_blueprint(cards.as_uri())
         address = f"{server.url()}/entry/{table.id}"

@@ -11,10 +11,13 @@ at y = row.
 
 from __future__ import annotations
 
+import errno
 import os
+import struct
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
+from pathlib import Path
 from typing import Literal, TypeAlias
 
 import cv2
@@ -32,6 +35,7 @@ from skyline_viz.column_views import TRUTH_RADIUS, log_columns, log_line
 from skyline_viz.detection import Detection
 from skyline_viz.detector import FilterDetection
 from skyline_viz.documents import markdown_document
+from skyline_viz.endings import held_back
 from skyline_viz.files import replacing
 from skyline_viz.memory import FULL_MEGAPIXELS
 from skyline_viz.names import printable, recording_id, shown_in_viewer
@@ -55,6 +59,10 @@ of every edge pixel, to four digits on hovering, and exact as numbers.
 """
 
 _BATCH = 1 << 18  # bytes: less than a map
+_FOOTER = struct.Struct("<QQ4x8s4x")
+"""How a recording ends: where its table of contents begins, its length, a checksum, the mark."""
+_FOOTER_MARK = b"RRF2FOOT"
+
 _RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
 
 _LEAN_JPEG = 75  # quality: at 85 the photo takes a third of a lean recording
@@ -69,6 +77,9 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
     Args:
         path: The ``.rrd`` file.
         name: What the viewer calls the recording.
+
+    Raises:
+        OSError: The disk is full; what was at `path` is untouched.
     """
     interrupted: KeyboardInterrupt | None = None
     # streams that nobody holds any more keep what was logged, 2 MB a photo, until told to let go
@@ -76,9 +87,10 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
     with replacing(path) as temporary:
         batches = rr.ChunkBatcherConfig.DEFAULT()
         batches.flush_num_bytes = _BATCH  # compress maps while the next ones are made
-        recording = rr.RecordingStream(
-            APPLICATION, recording_id=recording_id(name), batcher_config=batches
-        )
+        with held_back():  # half a stream complains when it goes
+            recording = rr.RecordingStream(
+                APPLICATION, recording_id=recording_id(name), batcher_config=batches
+            )
         recording.set_log_time_enabled(False)  # else a photo would be a film of its stages
         recording.save(temporary)
         try:
@@ -88,6 +100,7 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
             interrupted = stopped
         finally:
             recording.disconnect()  # writes the footer, without which the file is not whole
+        _check_whole(temporary)
     if interrupted:
         raise interrupted
 
@@ -99,6 +112,25 @@ def fidelity_of(pixels: int, full_megapixels: float = FULL_MEGAPIXELS) -> Fideli
     ('full', 'lean')
     """
     return "full" if pixels <= full_megapixels * 1e6 else "lean"
+
+
+def _check_whole(file: Path) -> None:
+    """Refuse a recording that could not be written: Rerun's thread that writes keeps it to itself.
+
+    Raises:
+        OSError: What keeps the file from growing, or that it breaks off.
+    """
+    size = file.stat().st_size
+    with file.open("r+b") as opened:
+        opened.seek(max(size - _FOOTER.size, 0))
+        tail = opened.read()
+        if len(tail) == _FOOTER.size:
+            start, length, mark = _FOOTER.unpack(tail)
+            if mark == _FOOTER_MARK and start + length + _FOOTER.size == size:
+                return
+        opened.write(bytes(_BATCH))  # which meets what kept Rerun from writing
+        opened.flush()
+    raise OSError(errno.EIO, "the recording breaks off", str(file))
 
 
 def log_detection(

@@ -18,6 +18,7 @@ from skyline_viz.methods.registry import model_bytes
 from skyline_viz.methods.testing import Compared
 from skyline_viz.methods.timing import Timing
 from skyline_viz.results import PhotoResult, Summary
+from skyline_viz.resume import Kept
 
 SIZES = (7, 9, 11, 13, 15)
 """Filter sizes of Table III, in pixels a side."""
@@ -112,7 +113,11 @@ def table_2(measured: Mapping[str, Compared]) -> Table:
 
 
 def table_3(
-    sets: Mapping[str, Sequence[DatasetItem]], folds: int, seed: int, workers: int
+    sets: Mapping[str, Sequence[DatasetItem]],
+    folds: int,
+    seed: int,
+    workers: int,
+    kept: Kept | None = None,
 ) -> Table:
     """Filter sizes, with the published settings, cross-validated."""
     config = DetectorConfig.paper()
@@ -121,7 +126,13 @@ def table_3(
         for size in SIZES:
             training = TrainingConfig(filter_size=size, detector=config)
             results, _ = cross_validate(
-                items, folds, config=config, training=training, seed=seed, workers=workers
+                items,
+                folds,
+                config=config,
+                training=training,
+                seed=seed,
+                workers=workers,
+                kept=kept,
             )
             good = [one for one in results if one.a_err < GOOD]
             rows.append((f"{size} x {size}", dataset, *_errors(results), _mean(good)))
@@ -138,14 +149,16 @@ def table_3(
     )
 
 
-def table_4(sets: Mapping[str, Sequence[DatasetItem]], seed: int, workers: int) -> Table:
+def table_4(
+    sets: Mapping[str, Sequence[DatasetItem]], seed: int, workers: int, kept: Kept | None = None
+) -> Table:
     """Training sets: each data set is learned from, and tested on each other one."""
     rows: list[tuple[Cell, ...]] = []
     config = DetectorConfig.paper()
     for learned, tested in permutations(sets, 2):
         training = TrainingConfig(detector=config)
         bank, _ = train_on(sets[learned], training, seed=seed, dataset=learned, workers=workers)
-        results, _ = evaluate(sets[tested], Detector(bank, config), workers=workers)
+        results, _ = evaluate(sets[tested], Detector(bank, config), workers=workers, kept=kept)
         summary = Summary.of(results)
         rows.append((learned, tested, summary.mean, summary.standard_deviation))
     rows += [

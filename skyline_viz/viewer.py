@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
@@ -24,6 +24,7 @@ import rerun_cli
 from PIL import Image
 from rerun.experimental import ViewerClient
 
+from skyline_viz.aftermath import ended, started
 from skyline_viz.files import replacing
 
 LOOPBACK = "127.0.0.1"
@@ -40,8 +41,9 @@ _ALONE = dict.fromkeys(("HTTPS_PROXY", "HTTP_PROXY", "ALL_PROXY"), f"http://{LOO
 }
 """A way out that leads nowhere: the viewer asks for news and reports its use, and has no switch."""
 
-_START_SECONDS = 30.0
-_PICTURE_SECONDS = 60.0
+_START_SECONDS = 120.0  # on a machine that is busy with something else
+_STILL_SECONDS = 60.0  # without any change, after which nothing more is expected
+_PICTURE_SECONDS = 600.0  # that pictures may take at most, as long as something changes
 _BAR = 37  # rows of the window's own bar, which stays when its content is hidden
 _STEADY = 4  # pictures in a row that agree, 0.15 s apart: thumbnails come one by one
 _ERRORS = (ConnectionError, RuntimeError, OSError, ValueError)  # what a client of a viewer raises
@@ -92,8 +94,7 @@ def web_server() -> Iterator[str]:
             sleep(0.05)
         yield f"http://{LOOPBACK}:{page}"
     finally:
-        process.terminate()
-        process.wait()
+        ended(process)
 
 
 @contextmanager
@@ -116,8 +117,7 @@ def headless_viewer(
         try:
             yield _connected(process, port, log)
         finally:
-            process.terminate()
-            process.wait()
+            ended(process)
 
 
 def save_picture(source: str | Path, path: Path, window: tuple[int, int] = WINDOW) -> None:
@@ -181,10 +181,10 @@ def send(sources: Sequence[Path], address: str) -> None:
 def wait_for(process: subprocess.Popen[bytes]) -> None:
     """Wait until a viewer is closed; Ctrl-C closes it."""
     try:
-        process.wait()
-    except KeyboardInterrupt:
-        process.terminate()
-        process.wait()
+        with suppress(KeyboardInterrupt):
+            process.wait()
+    finally:
+        ended(process)
 
 
 def tab_names(client: ViewerClient) -> list[str]:
@@ -243,18 +243,27 @@ def _tabs(client: ViewerClient) -> list[tuple[str, str, str]]:
 def settled_picture(client: ViewerClient) -> Image.Image:
     """Picture of a viewer when nothing moves any more.
 
+    A busy machine is waited for: as long as pictures change, or something is being loaded, for up
+    to ten minutes; a picture that stays blank for a minute is the end.
+
     Raises:
         ViewerError: It stays blank, or never settles.
     """
     before: np.ndarray | None = None
     same = 0
-    deadline = monotonic() + _PICTURE_SECONDS
+    deadline, changed = monotonic() + _PICTURE_SECONDS, monotonic()
     while monotonic() < deadline:
         picture = Image.open(io.BytesIO(client.take_screenshot())).convert("RGB")
         now = np.asarray(picture)
-        same = same + 1 if before is not None and np.array_equal(now, before) else 0
-        if same >= _STEADY and not client.get_state().loading and now.std() > 1:
+        still = before is not None and np.array_equal(now, before)
+        loading = client.get_state().loading
+        same = same + 1 if still else 0
+        if same >= _STEADY and not loading and now.std() > 1:
             return picture
+        if loading or not still:
+            changed = monotonic()
+        elif same >= _STEADY and monotonic() > changed + _STILL_SECONDS:
+            raise ViewerError(f"the viewer's picture stayed blank for {_STILL_SECONDS:.0f} s.")
         before = now
         sleep(0.15)  # maps are decoded in the background, between two pictures that agree
     raise ViewerError(f"the viewer showed no steady picture within {_PICTURE_SECONDS:.0f} s.")
@@ -272,7 +281,7 @@ def _start(arguments: Sequence[str], **streams: Any) -> subprocess.Popen[bytes]:
     alone = _ALONE | {name.lower(): value for name, value in _ALONE.items()}
     environment = {"RUST_LOG": "warn", **os.environ, **alone}
     try:
-        return subprocess.Popen([PROGRAM, *common, *arguments], env=environment, **streams)  # noqa: S603
+        return started([PROGRAM, *common, *arguments], env=environment, **streams)
     except OSError as error:
         raise ViewerError(f"the viewer {PROGRAM} cannot be started: {error.strerror}.") from error
 

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Any
 
+from skyline_viz.aftermath import ended, started
 from skyline_viz.viewer import LOOPBACK, PROGRAM, ViewerError
 
 _LOOK_EVERY = 1.0  # seconds; each look makes the viewer draw once
@@ -25,7 +26,7 @@ class Hand:
     """Drives the viewer that listens on a port of this machine."""
 
     def __init__(self, port: int) -> None:
-        self._process = subprocess.Popen(  # noqa: S603
+        self._process: subprocess.Popen[Any] = started(
             [PROGRAM, "viewer-mcp", "--endpoint", f"http://{LOOPBACK}:{port}"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -43,6 +44,7 @@ class Hand:
         """Let go of the viewer."""
         self._process.kill()
         self._process.communicate()
+        ended(self._process)
 
     def do(self, tool: str, **arguments: Any) -> str:  # noqa: ANN401
         """Do something, such as ``click`` or ``press_key``; return what the viewer says.

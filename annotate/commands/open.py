@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import socket
 import webbrowser
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -25,6 +24,7 @@ from skyline_viz.commands.methods import MethodOptions, Methods
 from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detector
 from skyline_viz.commands.sizes import MaxMegapixels, say_too_large
 from skyline_viz.config import DetectorConfig
+from skyline_viz.endings import told_by_signals
 from skyline_viz.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
@@ -179,8 +179,13 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
     config = uvicorn.Config(
         app, log_level="warning", access_log=False, server_header=False, lifespan="on"
     )
-    with suppress(KeyboardInterrupt):  # which the server raises again when it has stopped
-        uvicorn.Server(config).run(sockets=[listener])
+    server = uvicorn.Server(config)
+
+    def stop() -> None:
+        server.should_exit = True
+
+    with told_by_signals(stop):
+        server.run(sockets=[listener])
 
 
 def found_again(store: Store, host: str, port: int) -> tuple[socket.socket, str]:

@@ -23,7 +23,6 @@ from __future__ import annotations
 
 import io
 import shutil
-import tempfile
 import zipfile
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -48,6 +47,7 @@ from annotate.formats.interpretation import interpret
 from annotate.formats.photo_names import PhotoNames
 from annotate.formats.sources import drawings_in, files_below, format_of
 from annotate.labels import Label
+from skyline_viz.aftermath import passing_folder
 from skyline_viz.files import make_folder, move_folder
 
 
@@ -137,8 +137,8 @@ def export_labels(
                     f"{entry.label.name}: {format} cannot say which columns are not visible."
                 )
     make_folder(out.parent)
-    with tempfile.TemporaryDirectory(prefix=".export-", dir=out.parent) as folder:
-        inside = Path(folder) / "whole"
+    with passing_folder(".export-", out.parent) as folder:
+        inside = folder / "whole"
         inside.mkdir()
         FORMATS[format][0](entries, inside)
         if out.exists():
@@ -156,8 +156,8 @@ def archive(
 ) -> bytes:
     """Export labels into a ZIP file; `notes` and what was left out are in its ``notes.txt``."""
     packed = io.BytesIO()
-    with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(packed, "w") as file:
-        out = Path(folder) / "export"
+    with passing_folder() as folder, zipfile.ZipFile(packed, "w") as file:
+        out = folder / "export"
         export = export_labels(labels, photos, out, format, contents)
         for path in sorted(out.rglob("*")):
             if path.is_file():

@@ -131,6 +131,6 @@ async function answered(method, path, kind, body, signal) {
 
 /** Address of a page with the stages of a photo; behind its `#`, which no request carries, stands the token. */
 export function stagesAddress(photo) {
-  const asked = new URLSearchParams({ recording: `../../api/photos/${photo}/recording`, token });
+  const asked = new URLSearchParams({ recording: `../../api/photos/${photo}/recording`, token: me.token });
   return new URL(`static/stages/#${asked}`, location.href).href;
 }

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import tyro
 
-from skyline_viz.batch import Failure, run
+from skyline_viz.batch import Failure
 from skyline_viz.commands.inputs import output_folder, with_truth
 from skyline_viz.commands.messages import UsageError, counted, say, status_after, tell
 from skyline_viz.commands.methods import MethodOptions, Methods
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from skyline_viz.datasets import DatasetItem
     from skyline_viz.diagnosis_report import Diagnosed
     from skyline_viz.methods.protocol import Method
+    from skyline_viz.resume import Kept
 
 
 @dataclass(frozen=True)
@@ -92,44 +93,63 @@ class Diagnose:
             raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
         if self.out:
             output_folder(self.out, dataset)
+        from skyline_viz.resume import Kept  # noqa: PLC0415
+
         workers = foresee(items, self.workers, RECORDING)
-        detectors, failures = self._detectors(items, workers)
+        kept = Kept.within(self.out)
+        detectors, failures = self._detectors(items, workers, kept)
         if self.photo:
             items = [item for item in items if item.name == self.photo]
-        found, failed = self._diagnose(items, detectors, workers)
+        found, failed = self._diagnose(items, detectors, workers, kept)
+        if done := kept.said():
+            say(done)
         self._tell(dataset.name, found)
+        kept.remove()
         return status_after([*failures, *failed])
 
     def _detectors(
-        self, items: Sequence[DatasetItem], workers: int
+        self, items: Sequence[DatasetItem], workers: int, kept: Kept
     ) -> tuple[Mapping[str, Method], list[Failure]]:
         """The detector of each photo, by its name."""
         if self.methods.given:
             from skyline_viz.methods.testing import fold_method  # noqa: PLC0415
 
             method = self.methods.one(self.bank, self.config, to_train=bool(self.folds))
-            return fold_method(items, method, self.folds, self.seed, workers)
+            return fold_method(items, method, self.folds, self.seed, workers, kept)
         if not self.folds:
             detector = make_detector(self.bank, self.config)
             return {item.name: detector for item in items}, []
         from skyline_viz.evaluation import fold_detectors  # noqa: PLC0415
 
         return fold_detectors(
-            items, self.folds, config=self.config, seed=self.seed, workers=workers
+            items,
+            self.folds,
+            config=self.config,
+            seed=self.seed,
+            workers=workers,
+            kept=kept,
         )
 
     def _diagnose(
-        self, items: Sequence[DatasetItem], detectors: Mapping[str, Method], workers: int
+        self,
+        items: Sequence[DatasetItem],
+        detectors: Mapping[str, Method],
+        workers: int,
+        kept: Kept,
     ) -> tuple[list[Diagnosed], list[Failure]]:
+        from skyline_viz import diagnosis_record  # noqa: PLC0415
         from skyline_viz.diagnosis_report import diagnose_item  # noqa: PLC0415
-        from skyline_viz.evaluation import Test  # noqa: PLC0415
+        from skyline_viz.evaluation import key_of, tests_of  # noqa: PLC0415
+        from skyline_viz.resume import Codec  # noqa: PLC0415
 
-        work = partial(
-            diagnose_item, self.tolerance or None, remedies=not (self.no_remedies or self.photo)
-        )
-        tasks = [Test(item, detectors[item.name]) for item in items if item.name in detectors]
+        remedies = not (self.no_remedies or self.photo)
+        work = partial(diagnose_item, self.tolerance or None, remedies=remedies)
+        key = partial(key_of, f"diagnosis {self.tolerance} {remedies}")
+        codec = Codec(diagnosis_record.pack, diagnosis_record.unpack)
+        tasks = tests_of(items, detectors, kept)
         found, failures = [], []
-        for outcome in run(work, tasks, workers=workers, title="diagnosing"):
+        outcomes = kept.run(work, tasks, key, codec, workers=workers, title="diagnosing")
+        for outcome in outcomes:
             if isinstance(outcome, Failure):
                 failures.append(outcome)
             else:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from skyline_viz.batch import Failure
     from skyline_viz.datasets import Dataset, DatasetItem
     from skyline_viz.results import PhotoResult
+    from skyline_viz.resume import Kept
 
 
 @dataclass(frozen=True)
@@ -71,16 +72,24 @@ class Evaluate:
         items = with_truth(dataset)
         if self.out:
             output_folder(self.out, dataset)
+        from skyline_viz.resume import Kept  # noqa: PLC0415
+
         workers = foresee(items, self.workers)
+        kept = Kept.within(self.out)
         if self.methods.given:
-            return self._compare(dataset, items, workers)
+            return self._compare(dataset, items, workers, kept)
         from skyline_viz.evaluation import cross_validate, evaluate  # noqa: PLC0415
 
         if self.folds:
             how = f"{self.folds}-fold cross-validation"
             about: dict[str, object] = {"folds": self.folds, "seed": self.seed}
             results, failures = cross_validate(
-                items, self.folds, config=self.config, seed=self.seed, workers=workers
+                items,
+                self.folds,
+                config=self.config,
+                seed=self.seed,
+                workers=workers,
+                kept=kept,
             )
         else:
             detector = make_detector(self.bank, self.config)
@@ -89,17 +98,22 @@ class Evaluate:
             about = {"bank": asdict(provenance)}
             if provenance.dataset == dataset.name:
                 say(f"the bank was trained on {dataset.name}, so this is no test; see --folds.")
-            results, failures = evaluate(items, detector, workers=workers)
+            results, failures = evaluate(items, detector, workers=workers, kept=kept)
         title = f"{dataset.name}: {counted(len(results), 'photo')}, {how}"
+        if done := kept.said():
+            say(done)
         if self.out:
             self._write(dataset, title, about, results, failures)
+            kept.remove()
         if results:
             _print(title, results)
         if self.out:
             tell(f"summary.json, photos.csv and histogram.png in {self.out}")
         return status_after(failures)
 
-    def _compare(self, dataset: Dataset, items: Sequence[DatasetItem], workers: int) -> int:
+    def _compare(
+        self, dataset: Dataset, items: Sequence[DatasetItem], workers: int, kept: Kept
+    ) -> int:
         """Evaluate the methods that were named."""
         from skyline_viz import evaluation_report as report  # noqa: PLC0415
         from skyline_viz.methods.registry import learned_from  # noqa: PLC0415
@@ -109,7 +123,11 @@ class Evaluate:
         for text in self.methods.method:
             if not self.folds and learned_from(text) == dataset.name:
                 say(f"{text} was trained on {dataset.name}, so this is no test; see --folds.")
-        found = compare_methods(items, methods, folds=self.folds, seed=self.seed, workers=workers)
+        found = compare_methods(
+            items, methods, folds=self.folds, seed=self.seed, workers=workers, kept=kept
+        )
+        if done := kept.said("detection"):
+            say(done)
         how = f"{self.folds}-fold cross-validation" if self.folds else "as they are"
         tell(f"{dataset.name}: {counted(len(items), 'photo')}, {how}; A_err in px")
         tell_drawn(report.methods_table(found.results), width=110)
@@ -121,6 +139,7 @@ class Evaluate:
                 "failed": [asdict(failure) for failure in found.failures],
             }
             report.write_comparison(self.out, found.results, about)
+            kept.remove()
             tell(f"methods.json and methods.csv in {self.out}")
         return status_after(found.failures)
 

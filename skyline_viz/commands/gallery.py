@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
+from skyline_viz.aftermath import ended
 from skyline_viz.batch import Failure
 from skyline_viz.causes import Cause
 from skyline_viz.commands.inputs import Input, collect, output_folder
@@ -37,6 +37,7 @@ from skyline_viz.commands.settings import (
 from skyline_viz.commands.sizes import MaxMegapixels, foresee
 from skyline_viz.commands.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig
+from skyline_viz.endings import told_by_signals
 from skyline_viz.memory import MAX_MEGAPIXELS, RECORDING
 
 if TYPE_CHECKING:
@@ -170,7 +171,7 @@ def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: Cause | No
         if window and has_display():
             port = free_port()
             viewer = open_viewer([gallery.address], port)
-            around.callback(viewer.terminate)
+            around.callback(ended, viewer)
             around.enter_context(ended_edits(port, lambda: gallery.reviewed))
             tell("Enter ends a comment. A moment later all is on disk.")
         else:
@@ -219,14 +220,5 @@ def _served(out: Path, entries: Sequence[Entry], cause: Cause | None) -> Iterato
 def _stopped_politely() -> Iterator[threading.Event]:
     """Let Ctrl-C and a plain kill end the block, instead of cutting it short."""
     stop = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
+    with told_by_signals(stop.set):
         yield stop
-        return
-    before = {one: signal.getsignal(one) for one in (signal.SIGINT, signal.SIGTERM)}
-    for one in before:
-        signal.signal(one, lambda *_: stop.set())
-    try:
-        yield stop
-    finally:
-        for one, handler in before.items():
-            signal.signal(one, handler)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
+from skyline_viz.aftermath import passing_folder
 from skyline_viz.batch import Failure, sentence
 from skyline_viz.commands import inspect_more
 from skyline_viz.commands.inputs import Input, collect, with_truth
@@ -205,8 +205,8 @@ class Inspect:
             folder.mkdir(parents=True, exist_ok=True)
             yield folder
         else:
-            with tempfile.TemporaryDirectory(prefix="skyline-viz-") as passing:
-                yield Path(passing)
+            with passing_folder() as folder:
+                yield folder
 
     def _record(
         self,

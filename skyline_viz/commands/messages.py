@@ -12,7 +12,8 @@ from skyline_viz.batch import Failure
 from skyline_viz.names import printable
 
 GOOD, SOME_FAILED, USAGE, INTERRUPTED, BROKEN_PIPE = 0, 1, 2, 130, 141
-"""Exit status: all good, photos failed or the work broke off, bad input, Ctrl-C, ``| head``."""
+"""Exit status: all good, photos failed or the work broke off, bad input, Ctrl-C, ``| head``. After
+SIGTERM it is 143 and after SIGHUP 129."""
 
 
 class UsageError(ValueError):

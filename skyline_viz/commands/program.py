@@ -10,12 +10,13 @@ import os
 import sys
 import traceback
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any, Protocol
 
 import tyro
 
 from skyline_viz import __version__
-from skyline_viz.batch import BatchError, sentence
+from skyline_viz.batch import FULL, BatchError, sentence
 from skyline_viz.commands.messages import (
     BROKEN_PIPE,
     GOOD,
@@ -27,8 +28,12 @@ from skyline_viz.commands.messages import (
     tell,
 )
 from skyline_viz.commands.sizes import limit
+from skyline_viz.endings import AskedToEnd, asked_by_signals
 from skyline_viz.names import printable
 from skyline_viz.notes import heard_by, once
+
+_QUIET = "warn,re_log_encoding=off,re_sdk=off"
+"""Rerun tells in its own way of recordings that cannot be written; `new_recording` does in ours."""
 
 
 class Command(Protocol):
@@ -48,10 +53,15 @@ def run_program(
         parse: Turns the words after the name into a command.
         arguments: These words; those of this process unless given.
     """
+    os.environ.setdefault("RUST_LOG", _QUIET)
     try:
-        with heard_by(once(lambda note: say(note, program))):
+        with asked_by_signals(), heard_by(once(lambda note: say(note, program))):
             status = _run(program, parse, sys.argv[1:] if arguments is None else list(arguments))
-        sys.stdout.flush()
+            sys.stdout.flush()
+    except AskedToEnd as asked:
+        with suppress(OSError):  # the terminal may be gone
+            say(f"ended by {asked}; every file that was written is whole.", program)
+        return 128 + asked.number
     except KeyboardInterrupt:
         say("interrupted; every file that was written is whole.", program)
         return INTERRUPTED
@@ -62,6 +72,9 @@ def run_program(
         if (known := _status_of(error)) is None:
             raise
         text = sentence(error)
+        if isinstance(error, OSError) and error.errno in FULL and not error.filename:
+            text = f"the output cannot be written: {text}"  # whoever writes files names them
+            _silence_stdout()
         say(text if text.endswith((".", "?", "!")) else f"{text}.", program)
         return known
     finally:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from skyline_viz.datasets import DatasetItem
     from skyline_viz.methods.protocol import Method
     from skyline_viz.methods.testing import Compared
+    from skyline_viz.resume import Kept
     from skyline_viz.tables import Table
 
 
@@ -63,6 +64,7 @@ class Tables:
     def run(self) -> int:
         """Measure and write; return the exit status."""
         from skyline_viz.methods.registry import make_method  # noqa: PLC0415
+        from skyline_viz.resume import Kept  # noqa: PLC0415
 
         if not self.datasets:
             raise UsageError("which data sets? Name at least one folder.")
@@ -81,25 +83,36 @@ class Tables:
             output_folder(self.out, dataset)
             sets[dataset.name] = with_truth(dataset)
         workers = foresee([item for items in sets.values() for item in items], self.workers)
-        measured = self._measure(sets, methods, workers)
+        kept = Kept.within(self.out)
+        measured = self._measure(sets, methods, workers, kept)
         failures = [failure for one in measured.values() for failure in one.failures]
         if not any(one.results for one in measured.values()):
             return status_after(failures) or SOME_FAILED
         self._write_results(measured)  # first: it took long, and what follows may fail
-        self._write_tables(self._tables(measured, workers))
+        self._write_tables(self._tables(measured, workers, kept))
+        kept.remove()
         return status_after(failures)
 
     def _measure(
-        self, sets: Mapping[str, Sequence[DatasetItem]], methods: Sequence[Method], workers: int
+        self,
+        sets: Mapping[str, Sequence[DatasetItem]],
+        methods: Sequence[Method],
+        workers: int,
+        kept: Kept,
     ) -> dict[str, Compared]:
         from skyline_viz.methods.testing import compare_methods  # noqa: PLC0415
 
-        return {
-            name: compare_methods(items, methods, folds=self.folds, seed=self.seed, workers=workers)
+        measured = {
+            name: compare_methods(
+                items, methods, folds=self.folds, seed=self.seed, workers=workers, kept=kept
+            )
             for name, items in sets.items()
         }
+        if done := kept.said("detection"):
+            say(done)
+        return measured
 
-    def _tables(self, measured: dict[str, Compared], workers: int) -> list[Table]:
+    def _tables(self, measured: dict[str, Compared], workers: int, kept: Kept) -> list[Table]:
         from skyline_viz import tables  # noqa: PLC0415
         from skyline_viz.methods.timing import time_methods  # noqa: PLC0415
 
@@ -108,8 +121,8 @@ class Tables:
         if not self.no_studies:
             say("filter sizes and training sets ...")
             studies = [
-                tables.table_3(sets, self.folds, self.seed, workers),
-                tables.table_4(sets, self.seed, workers),
+                tables.table_3(sets, self.folds, self.seed, workers, kept),
+                tables.table_4(sets, self.seed, workers, kept),
             ]
         say("times ...")
         compared = max(measured.values(), key=lambda one: len(one.fitted))

@@ -32,6 +32,7 @@ from skyline_viz.arrays import F32, U8, Bool
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.edges import to_grey
 from skyline_viz.methods.extras import needed
+from skyline_viz.methods.network_trial import try_network
 from skyline_viz.methods.protocol import MethodError, Model, shown_to_learners
 from skyline_viz.methods.score_images import (
     BEFORE,
@@ -100,15 +101,27 @@ class CnnScores(DenseScores):
     def dense_score(self, photo: U8) -> F32:
         """See `DenseScores.dense_score`."""
         # a network of its own, for OpenCV's are not to be shared between threads
+        data = self.part("onnx").astype(np.uint8)
+        said = f"the network of {self.name}"
+        try_network(data.tobytes(), (1, 1, 4 * PATCH, 4 * PATCH), said)
         try:
-            network = cv2.dnn.readNetFromONNX(self.part("onnx").astype(np.uint8))
+            network = cv2.dnn.readNetFromONNX(data)
         except cv2.error as error:
-            raise MethodError(f"the network of {self.name} is damaged.") from error
+            raise MethodError(f"{said} is damaged.") from error
         image = np.pad(locally_normalised(photo), (BEFORE, PATCH - 1 - BEFORE), mode="edge")
         strips = []
         for top in range(0, len(photo), STRIP):
-            network.setInput(image[None, None, top : top + STRIP + PATCH - 1])
-            strips.append(network.forward()[0, 0])
+            strip = image[top : top + STRIP + PATCH - 1]
+            try:
+                network.setInput(strip[None, None])
+                values = np.asarray(network.forward(), np.float32)
+            except cv2.error as error:
+                raise MethodError(f"{said} is damaged.") from error
+            if values.shape != (1, 1, len(strip) - PATCH + 1, photo.shape[1]):
+                raise MethodError(f"{said} is damaged: it gives {values.shape}.")
+            if not np.isfinite(values).all():
+                raise MethodError(f"{said} gives values that are no finite numbers.")
+            strips.append(values[0, 0])
         return logistic(np.concatenate(strips))
 
 

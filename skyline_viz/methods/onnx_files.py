@@ -9,14 +9,23 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from math import prod
+from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8
+from skyline_viz.methods.network_trial import remember, try_network
 from skyline_viz.methods.protocol import MethodError
 
+MOST_BYTES = 1 << 31
+"""Bytes that a network's file may have: no protocol buffer is larger."""
+
+_USUAL = 256  # rows and columns to try a network with
+_LARGEST_INPUT = 3 * 150_000_000  # numbers of an input: the largest photo, in three colours
+_MOST_FIELDS = 2_000_000  # of a message
 _GRAPH, _INITIALIZER, _INPUT, _OUTPUT = 7, 5, 11, 12
 _INTEGERS = frozenset({2, 3, 4, 5, 6, 7, 9, 12, 13})  # element types of ONNX, bool among them
 
@@ -64,6 +73,43 @@ def read_header(data: bytes) -> Header:
     return Header(tuple(one for one in inputs if one.name not in weights), tuple(outputs))
 
 
+def read_network(path: Path) -> bytes:
+    """The content of a user's file.
+
+    Raises:
+        MethodError: It cannot be read, or is larger than any ONNX file can be.
+    """
+    try:
+        if path.exists() and not path.is_file():
+            raise MethodError(f"{path} cannot be read: it is no file.")
+        size = path.stat().st_size
+        if size > MOST_BYTES:
+            raise MethodError(f"{path} has {size:,} bytes, and {MOST_BYTES:,} are the limit.")
+        return path.read_bytes()
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise MethodError(f"{path} cannot be read: {reason}.") from error
+
+
+class HoldsNetwork:
+    """A method that keeps its opened network in ``_network``.
+
+    That does not go to other processes; that its content has been tried does.
+    """
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the opened network."""
+        state = dict(vars(self))
+        opened: Network | None = state.pop("_network", None)
+        return {**state, "_tried": opened.digest if opened else ""}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Remember what was tried."""
+        if tried := state.pop("_tried"):
+            remember(tried)
+        vars(self).update(state)
+
+
 class Network:
     """A network that is ready to run."""
 
@@ -75,13 +121,17 @@ class Network:
             name: What to call it in messages.
 
         Raises:
-            MethodError: It is no ONNX file, or OpenCV cannot run such a network.
+            MethodError: It is no ONNX file, OpenCV cannot run such a network, or dies of it.
         """
         self.name = name
         try:
             self.header = read_header(data)
         except ValueError:
             raise MethodError(f"{name} is not an ONNX file.") from None
+        if not self.header.inputs or not self.header.outputs:
+            raise MethodError(f"{name} takes nothing, or gives nothing.")
+        self.digest = try_network(data, self._some_input(), name)
+        """Of its content."""
         with self._explained("cannot be read by OpenCV"):
             self._net = cv2.dnn.readNetFromONNX(np.frombuffer(data, np.uint8))
 
@@ -97,6 +147,16 @@ class Network:
         if not np.isfinite(output).all():
             raise MethodError(f"{self.name} gives values that are no finite numbers.")
         return output
+
+    def _some_input(self) -> tuple[int, ...]:
+        """Shape of an input; where the file leaves a side free, of a usual length."""
+        shape = self.header.inputs[0].shape or (1, 3, 0, 0)
+        last = len(shape) == 4 and shape[1] != 3 and shape[3] == 3  # channels
+        usual = (1, _USUAL, _USUAL, 3) if last else (1, 3, _USUAL, _USUAL)
+        sides = tuple(side or usual[min(at, 3)] for at, side in enumerate(shape))
+        if prod(sides) > _LARGEST_INPUT:
+            raise MethodError(f"{self.name} takes {shape}, which is more than any photo.")
+        return sides
 
     @contextmanager
     def _explained(self, trouble: str) -> Iterator[None]:
@@ -133,8 +193,11 @@ def _fields(view: memoryview | int) -> Iterator[tuple[int, memoryview | int]]:
     """
     if isinstance(view, int):
         raise ValueError("a number, not a message")
-    at = 0
+    at = count = 0
     while at < len(view):
+        count += 1
+        if count > _MOST_FIELDS:
+            raise ValueError("it has too many fields")
         key, at = _varint(view, at)
         kind = key & 7
         if kind == 0:

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import cv2
 import numpy as np
@@ -23,17 +23,19 @@ from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.detection import Detection, timed
 from skyline_viz.methods.extras import needed
-from skyline_viz.methods.onnx_files import Network, normalised, padded
-from skyline_viz.methods.protocol import LearnedMethod, Model, shown_to_learners
+from skyline_viz.methods.onnx_files import HoldsNetwork, Network, normalised, padded
+from skyline_viz.methods.protocol import LearnedMethod, MethodError, Model, shown_to_learners
 from skyline_viz.methods.sky_boundary import detect_boundary
 from skyline_viz.methods.sky_network import MEAN, STD, enlarged, sigmoid
 
 if TYPE_CHECKING:
     from skyline_viz.methods.parsing_nets import Architecture
 
+_MOST_COLUMNS = 20_000
+
 
 @dataclass(frozen=True)
-class SceneParsing(LearnedMethod):
+class SceneParsing(HoldsNetwork, LearnedMethod):
     """What the networks have in common."""
 
     architecture: ClassVar[Architecture]
@@ -94,18 +96,19 @@ class SceneParsing(LearnedMethod):
         return detect_boundary(self.name, photo, sky, seconds)
 
     def _sky(self, network: Network, photo: U8) -> F32:
-        small = to_columns(photo, int(self.part("columns")))
+        columns = int(self.part("columns"))
+        if not 32 <= columns <= _MOST_COLUMNS:
+            raise MethodError(f"{self.name} is damaged: it scales photos to {columns} columns.")
+        small = to_columns(photo, columns)
         logits = network.run(normalised(padded(small), MEAN, STD))
-        rows, columns = small.shape[:2]
+        rows = len(small)
+        if logits.ndim != 4 or logits.shape[2] < rows or logits.shape[3] < columns:
+            raise MethodError(f"{network.name} gives {logits.shape}, and no map of the photo.")
         return enlarged(sigmoid(logits[0, 0, :rows, :columns]), photo.shape[:2])
 
     @cached_property
     def _network(self) -> Network:
         return Network(self.part("network").tobytes(), f"the network of {self.name}")
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Without the opened network, which does not go to other processes."""
-        return {key: value for key, value in vars(self).items() if key != "_network"}
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from skyline_viz.arrays import U8, Bool
 from skyline_viz.datasets import DatasetItem
 from skyline_viz.detection import Detection
+from skyline_viz.headed_npz import Stored
 from skyline_viz.skyline import Skyline
 
 Model = Mapping[str, npt.NDArray[np.generic]]
@@ -99,6 +100,17 @@ class LearnedMethod:
         """Shape of each array of the model, None where any length will do."""
         return {}
 
+    def check_announced(self, arrays: Mapping[str, Stored]) -> None:
+        """Refuse a file that announces other arrays than the model has, before they are read.
+
+        Raises:
+            ValueError: The message names the array.
+        """
+        for name, wanted in self.model_shapes().items():
+            if name not in arrays:
+                raise ValueError(f"its {name} is missing")
+            _check_array(name, arrays[name], wanted)
+
     def check_model(self) -> None:
         """Refuse a model whose arrays are missing, of another shape, or not finite.
 
@@ -111,12 +123,8 @@ class LearnedMethod:
             array = self.model.get(name)
             if array is None:
                 raise ValueError(f"its {name} is missing")
-            fits = len(array.shape) == len(wanted) and all(
-                want in (None, have) for want, have in zip(wanted, array.shape, strict=True)
-            )
-            if not fits:
-                raise ValueError(f"its {name} has the shape {array.shape}")
-            if array.dtype.kind not in "uif" or not np.isfinite(array).all():
+            _check_array(name, array, wanted)
+            if not np.isfinite(array).all():
                 raise ValueError(f"its {name} holds what is no finite number")
 
     def part(self, name: str) -> npt.NDArray[np.generic]:
@@ -141,6 +149,23 @@ class LearnedMethod:
                 f"{self.name} has learned nothing yet; train it with: "
                 f"skyline-viz train DATASET --method {self.name} --out FILE"
             )
+
+
+def _check_array(
+    name: str, array: Stored | npt.NDArray[np.generic], wanted: tuple[int | None, ...]
+) -> None:
+    """Refuse an array of another shape than the model's, or of no numbers.
+
+    Raises:
+        ValueError: The message names it.
+    """
+    fits = len(array.shape) == len(wanted) and all(
+        want in (None, have) for want, have in zip(wanted, array.shape, strict=True)
+    )
+    if not fits:
+        raise ValueError(f"its {name} has the shape {array.shape}")
+    if array.dtype.kind not in "uif":
+        raise ValueError(f"its {name} holds what is no finite number")
 
 
 def shown_to_learners(items: Sequence[DatasetItem]) -> Iterator[tuple[U8, Skyline]]:

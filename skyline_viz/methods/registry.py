@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from importlib import import_module
@@ -18,6 +17,7 @@ from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, FilterBankError
+from skyline_viz.headed_npz import HeadedNpz, NpzError, opened
 from skyline_viz.methods.names import MethodName
 from skyline_viz.methods.protocol import LearnedMethod, Method, MethodError
 
@@ -25,6 +25,8 @@ NAMES: tuple[str, ...] = get_args(MethodName)
 """All names, in the order of the paper's Table I."""
 
 FORMAT, VERSION = "skyline-method", 1
+
+_LARGEST = 1_000_000  # setting of any method: pixels, costs, epochs
 
 _CLASSES = {
     "edges": ("edges_only", "EdgesOnly"),
@@ -120,30 +122,61 @@ def load_method(path: Path) -> Method:
         MethodError: Missing, damaged, another kind of file, or of another version.
     """
     try:
-        header, arrays = _read(path)
+        with opened(path) as file:
+            if file.header.get("format") == FORMAT:
+                return _loaded(path, file)
     except FileNotFoundError:
         raise MethodError(f"{path} does not exist.") from None
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
-        raise MethodError(f"{path} is damaged or no trained method.") from error
-    if header.get("format") != FORMAT:
-        try:
-            return Detector(FilterBank.load(path))
-        except FilterBankError as error:
-            raise MethodError(f"{path} is neither a trained method nor a filter bank.") from error
-    if header.get("version") != VERSION:
-        raise MethodError(f"{path} is of version {header.get('version')}, not {VERSION}.")
+    except NpzError as error:
+        raise MethodError(f"{path} is damaged or no trained method: {error}.") from error
     try:
-        if header["name"] == "network":
-            return _network(header["settings"], header["digest"])
-        made: Any = make_method(str(header["name"]))
-        model = {"model": arrays} if isinstance(made, LearnedMethod) else {}
-        loaded: Method = type(made)(name=header["name"], **model, **header["settings"])
+        return Detector(FilterBank.load(path))
+    except FilterBankError as error:
+        raise MethodError(f"{path} is neither a trained method nor a filter bank.") from error
+
+
+def _loaded(path: Path, file: HeadedNpz) -> Method:
+    """The method in a file whose header is one of ours.
+
+    Raises:
+        NpzError: An array is damaged.
+        MethodError: Something else is.
+    """
+    header = file.header
+    if header.get("version") != VERSION:
+        said = str(header.get("version"))[:20]
+        raise MethodError(f"{path} is of version {said}, not {VERSION}.")
+    name, settings = header.get("name"), header.get("settings")
+    if not isinstance(name, str) or not isinstance(settings, dict):
+        raise MethodError(f"{path} is damaged: its header names no method.")
+    try:
+        if name == "network":
+            return _network(settings, str(header.get("digest")))
+        made: Any = make_method(name)
+        if not isinstance(made, LearnedMethod):
+            model = {}
+        else:
+            made.check_announced(file.arrays)
+            model = {"model": {part: file.read(part) for part in made.model_shapes()}}
+        loaded: Method = type(made)(name=name, **model, **settings)
         if isinstance(loaded, LearnedMethod):
             loaded.check_model()
         _check_settings(loaded, made)
-    except (KeyError, TypeError, ValueError) as error:
-        raise MethodError(f"{path} is damaged: {error}.") from error
+    except (NpzError, MethodError):
+        raise
+    except (LookupError, TypeError, ValueError, ArithmeticError) as error:
+        raise MethodError(f"{path} is damaged: {_told(error)}.") from error
     return loaded
+
+
+def _told(error: Exception) -> str:
+    """What is wrong with settings; Python's words for it are no help."""
+    ours = isinstance(error, _SettingError | ValueError)
+    return str(error) if ours else "its settings are of another kind"
+
+
+class _SettingError(TypeError):
+    """A setting of another kind."""
 
 
 def learned_from(text: str) -> str:
@@ -157,21 +190,32 @@ def learned_from(text: str) -> str:
         return method.bank.provenance.dataset
     if text in NAMES:
         return ""
-    header, _ = _read(Path(text))
-    return str(header.get("trained", {}).get("dataset", ""))
+    try:
+        with opened(text) as file:
+            trained = file.header.get("trained")
+    except (NpzError, OSError) as error:
+        raise MethodError(f"{text} is damaged or no trained method.") from error
+    dataset = trained.get("dataset") if isinstance(trained, dict) else ""
+    return dataset if isinstance(dataset, str) else ""
 
 
 def _check_settings(loaded: Method, made: Method) -> None:
-    """Refuse settings of other kinds than a new method of that name has.
+    """Refuse settings of other kinds than a new method of that name has, and absurd ones.
 
     Raises:
-        TypeError: The message names the setting.
+        _SettingError: The message names the setting.
     """
     for one in fields(made):  # type: ignore[arg-type]  # all methods are dataclasses
         value, usual = getattr(loaded, one.name), getattr(made, one.name)
+        if one.name == "model" or (value is None and usual is None):
+            continue
         number = isinstance(usual, float) and isinstance(value, int)
-        if not (number or usual is None or isinstance(value, type(usual)) or one.name == "model"):
-            raise TypeError(f"its {one.name} is {value!r}")
+        path = usual is None and isinstance(value, str)
+        fits = number or path or type(value) is type(usual)
+        if fits and not isinstance(value, str):
+            fits = abs(value) <= _LARGEST  # nor is it infinite, or no number at all
+        if not fits:
+            raise _SettingError(f"its {one.name} is {str(value)[:40]!r}")
 
 
 def _network(settings: dict[str, Any], digest: str) -> Method:
@@ -184,6 +228,11 @@ def _network(settings: dict[str, Any], digest: str) -> Method:
 
     mean, std = tuple(settings.pop("mean")), tuple(settings.pop("std"))
     network = SkyNetwork(Path(settings.pop("network")), mean=mean, std=std, **settings)
+    numbers = (network.sky_class, network.columns or 1, *mean, *std)
+    if not all(type(one) in (int, float) and abs(one) <= _LARGEST for one in numbers):
+        raise _SettingError("its settings are no numbers, or absurd ones")
+    if not (len(mean) == len(std) == 3 and all(std) and (network.columns or 1) > 0):
+        raise _SettingError("its settings fit no photo")
     if not network.network.is_file():
         raise MethodError(f"the network {network.network} is gone.")
     if method_digest(network) != digest:
@@ -200,7 +249,9 @@ def method_digest(method: Method) -> str:
             for name, array in sorted(value.items()):
                 digest.update(name.encode() + array.tobytes())
         elif isinstance(value, Path) and value.is_file():  # what it holds, wherever it lies
-            digest.update(value.read_bytes())
+            with value.open("rb") as file:
+                while piece := file.read(1 << 20):
+                    digest.update(piece)
         else:
             digest.update(f"{one.name} {value}".encode())
     return digest.hexdigest()
@@ -214,14 +265,3 @@ def model_bytes(method: Method) -> int:
         return sum(array.nbytes for array in method.model.values())
     network = getattr(method, "network", None)
     return network.stat().st_size if isinstance(network, Path) else 0
-
-
-def _read(path: Path) -> tuple[dict[str, Any], Mapping[str, Any]]:
-    with path.open("rb") as file:
-        if not zipfile.is_zipfile(file):
-            raise ValueError("no archive")
-    with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
-        header = json.loads(archive["header"].tobytes())
-        if not isinstance(header, dict):
-            raise ValueError("no header")
-        return header, {name: archive[name] for name in archive.files if name != "header"}

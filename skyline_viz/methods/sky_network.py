@@ -24,7 +24,7 @@ import numpy as np
 
 from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.detection import Detection, timed
-from skyline_viz.methods.onnx_files import Network, normalised, padded
+from skyline_viz.methods.onnx_files import HoldsNetwork, Network, normalised, padded, read_network
 from skyline_viz.methods.protocol import MethodError
 from skyline_viz.methods.sky_boundary import detect_boundary
 
@@ -36,7 +36,7 @@ STD = (0.229, 0.224, 0.225)
 
 
 @dataclass(frozen=True)
-class SkyNetwork:
+class SkyNetwork(HoldsNetwork):
     """A network of somebody's."""
 
     network: Path
@@ -142,12 +142,7 @@ class SkyNetwork:
 
     @cached_property
     def _network(self) -> Network:
-        try:
-            data = Path(self.network).read_bytes()
-        except OSError as error:
-            reason = (error.strerror or str(error)).lower()
-            raise MethodError(f"{self.network} cannot be read: {reason}.") from error
-        network = Network(data, str(self.network))
+        network = Network(read_network(Path(self.network)), str(self.network))
         inputs = network.header.inputs
         shapes = [one.shape for one in inputs]
         if len(inputs) != 1 or len(shapes[0]) != 4 or not {3, 0} & {shapes[0][1], shapes[0][3]}:
@@ -156,10 +151,6 @@ class SkyNetwork:
                 f"{self.network} takes {wants}, and not one photo (1, 3, rows, columns)."
             )
         return network
-
-    def __getstate__(self) -> dict[str, Any]:
-        """Without the opened network, which does not go to other processes."""
-        return {key: value for key, value in vars(self).items() if key != "_network"}
 
 
 def enlarged(sky: F32, shape: tuple[int, ...], matrix: np.ndarray[Any, Any] | None = None) -> F32:

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
 
 from skyline_viz.batch import Failure, run
 from skyline_viz.datasets import DatasetItem
-from skyline_viz.evaluation import Test, test_photo
-from skyline_viz.methods.protocol import Learner, Method
+from skyline_viz.detector import Detector
+from skyline_viz.evaluation import run_tests, tests_of
+from skyline_viz.filter_bank import FilterBank, FilterBankError
+from skyline_viz.methods.protocol import Learner, Method, MethodError
+from skyline_viz.methods.registry import Trained, load_method, save_method
 from skyline_viz.results import PhotoResult
+from skyline_viz.resume import Kept, digest_of, digest_of_item, digest_of_method
 from skyline_viz.skyline import SkylineError
 
 
@@ -38,6 +44,7 @@ def compare_methods(
     training: Sequence[DatasetItem] = (),
     seed: int = 0,
     workers: int = 1,
+    kept: Kept | None = None,
 ) -> Compared:
     """Test methods on photos with truth.
 
@@ -51,6 +58,7 @@ def compare_methods(
         training: Photos to learn from instead; only without folds.
         seed: Seed of all that is drawn.
         workers: Number of processes, see `batch.run`.
+        kept: Where finished photos and trained methods are kept; nowhere unless given.
 
     Raises:
         ValueError: There are too few photos for so many folds.
@@ -64,23 +72,18 @@ def compare_methods(
         lessons = [[one for one in usable if one not in part] for part in parts]
     else:
         parts, lessons = [usable], [list(training)]
-    fitted = _fitted(methods, lessons, seed, workers, failures)
+    fitted = _fitted(methods, lessons, seed, workers, failures, kept)
     results: dict[str, list[PhotoResult]] = {}
     for at, method in enumerate(methods):
-        tests = [
-            Test(item, ready)
+        detectors = {
+            item.name: ready
             for part, ready in zip(parts, fitted[at], strict=True)
             if ready is not None
             for item in part
-        ]
-        tests.sort(key=lambda test: test.name)
-        found: list[PhotoResult] = []
-        for outcome in run(test_photo, tests, workers=workers, title=method.name):
-            if isinstance(outcome, Failure):
-                failures.append(replace(outcome, name=f"{outcome.name}, {method.name}"))
-            else:
-                found.append(outcome)
-        results[method.name] = found
+        }
+        tests = sorted(tests_of(usable, detectors, kept), key=lambda test: test.name)
+        results[method.name], failed = run_tests(tests, workers, kept, title=method.name)
+        failures += [replace(one, name=f"{one.name}, {method.name}") for one in failed]
     ready = {
         method.name: one[0]
         for method, one in zip(methods, fitted, strict=True)
@@ -90,14 +93,19 @@ def compare_methods(
 
 
 def fold_method(
-    items: Sequence[DatasetItem], method: Method, folds: int, seed: int, workers: int
+    items: Sequence[DatasetItem],
+    method: Method,
+    folds: int,
+    seed: int,
+    workers: int,
+    kept: Kept | None = None,
 ) -> tuple[dict[str, Method], list[Failure]]:
     """For each photo, by its name, a method as it is to be tested on it, see `compare_methods`."""
     items = sorted(items, key=lambda item: item.name)
     parts = [items[fold::folds] for fold in range(folds)] if folds else [list(items)]
     lessons = [[one for one in items if one not in part] for part in parts]
     failures: list[Failure] = []
-    (fitted,) = _fitted([method], lessons, seed, workers, failures)
+    (fitted,) = _fitted([method], lessons, seed, workers, failures, kept)
     ready = {
         item.name: one
         for part, one in zip(parts, fitted, strict=True)
@@ -112,6 +120,8 @@ class _Lesson:
     method: Learner
     items: list[DatasetItem]
     seed: int
+    folder: Path | None
+    """Where what is learned is kept; None keeps nothing."""
 
     @property
     def name(self) -> str:
@@ -124,6 +134,7 @@ def _fitted(
     seed: int,
     workers: int,
     failures: list[Failure],
+    kept: Kept | None,
 ) -> list[list[Method | None]]:
     """Each method as it is to be tested on each part; None where it could not learn."""
     families: dict[str, list[Learner | None]] = {}
@@ -133,7 +144,7 @@ def _fitted(
             fitted.append([method] * len(lessons))
             continue
         if method.family not in families:
-            families[method.family] = _learned(method, lessons, seed, workers, failures)
+            families[method.family] = _learned(method, lessons, seed, workers, failures, kept)
         shared = families[method.family]
         fitted.append([None if one is None else method.sharing(one) for one in shared])
     return fitted
@@ -145,9 +156,11 @@ def _learned(
     seed: int,
     workers: int,
     failures: list[Failure],
+    kept: Kept | None,
 ) -> list[Learner | None]:
     learned: list[Learner | None] = []
-    tasks = [_Lesson(method, items, seed) for items in lessons]
+    folder = kept.folder if kept else None
+    tasks = [_Lesson(method, items, seed, folder) for items in lessons]
     title = f"training {method.name}"
     for outcome in run(_learn, tasks, workers=min(workers or len(tasks), len(tasks)), title=title):
         if isinstance(outcome, Failure):
@@ -160,7 +173,27 @@ def _learned(
 
 
 def _learn(lesson: _Lesson) -> Learner:
-    return lesson.method.fit(lesson.items, lesson.seed)
+    """What is learned, or what an earlier run has learned from the same photos."""
+    method: Any = lesson.method
+    if lesson.folder is None:
+        return lesson.method.fit(lesson.items, lesson.seed)
+    contents = [digest_of_item("", item) for item in lesson.items]
+    key = digest_of("learned", digest_of_method(method), lesson.seed, contents)
+    file = lesson.folder / f"{key}.npz"
+    try:
+        if isinstance(method, Detector):
+            again: Learner = replace(method, bank=FilterBank.load(file))
+            return again
+        known: Any = load_method(file)
+        ready: Learner = replace(method, model=known.model)
+        return ready
+    except (FilterBankError, MethodError):  # there is none, or it is damaged
+        learned = lesson.method.fit(lesson.items, lesson.seed)
+    if isinstance(learned, Detector):
+        learned.bank.save(file)
+    else:
+        save_method(learned, file, Trained())
+    return learned
 
 
 def _readable(
