@@ -133,8 +133,7 @@ def make_plan(edits: Edits, delta: int | None) -> Plan:
     straight: Bool = np.zeros(edits.width, np.bool_)
     for span in edits.spans:
         fixed[span.first : span.last + 1] = span.rows
-    for column, row in edits.anchors.items():
-        fixed[column] = row
+    fixed[list(edits.anchors)] = list(edits.anchors.values())
     columns = np.flatnonzero(fixed >= 0)
     if len(columns):
         steps, climbs = np.diff(columns), np.abs(np.diff(fixed[columns]))

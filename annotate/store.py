@@ -241,7 +241,8 @@ class Store:
             with reading_label(database, label):
                 before_it = self._states.read(database, label)
             state = add(database, asked, before_it, time(), line)
-        self._states.remember(label, state)
+        with self._lock:
+            self._states.remember(label, state)
         return state.revision
 
     def known(self, asked: Request) -> int | None:

@@ -198,8 +198,8 @@ class Workbench:
         for card in waiting:
             self.close_photo(card.photo.id)
             before = card.margin
-            self.session(card.photo.id)
-            changed += before is not None
+            worked_on = self.session(card.photo.id).state.revision > 0  # and undone: it stays
+            changed += before is not None and not worked_on
         return changed
 
     def detection(self, photo: int) -> Detection:

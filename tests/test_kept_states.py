@@ -355,3 +355,20 @@ def test_any_changes_sent_any_number_of_times_are_kept_once(tmp_path_factory, as
 def test_a_request_says_what_is_kept():
     asked = Request(1, 0, "anchor", {"column": 3, "row": 4}, "a")
     assert asked.operation() == LOGGED.validate_json(asked.text)
+
+
+@pytest.mark.parametrize("operation", [ANCHOR, ACCEPT, {"kind": "open"}])
+def test_an_open_photo_never_goes_on_from_what_it_has_not_seen(tmp_path, operation):
+    bench = workbench(write_hills(tmp_path, count=1))
+    session = bench.session(1)
+    before = session.state
+    other = Store(tmp_path)
+    revision = other.append(1, -1, "anchor", {"column": 9, "row": 9}, LINE)
+    other.close()
+    with pytest.raises(StaleError) as refused:
+        session.apply(LOGGED.validate_python(operation), -1)
+    assert refused.value.revision == revision
+    assert (session.state, session.wire.edits) == (before, before.edits)
+    kept = [row[0] for row in rows(bench.store, "kind")]
+    assert kept == (["anchor", "open"] if operation["kind"] == "open" else ["anchor"])
+    bench.close()
