@@ -167,9 +167,9 @@ def _painted(picture: LabelPicture) -> Skyline | None:
     """
     if picture.values.ndim == 2 and picture.palette is None:
         return None
-    bare = picture.counts is not None and len(picture.counts) <= 2  # there is no photo beneath
-    if bare and picture.palette is None:
-        hit = {(255, 0, 0), (0, 0, 255)} & set(picture.counts or ())
+    bare = picture.counts is not None  # there is hardly a photo beneath
+    if picture.counts is not None and picture.palette is None:
+        hit = {(255, 0, 0), (0, 0, 255)} & set(picture.counts)
         if not hit:
             return None
     colours = picture.colours
@@ -187,7 +187,7 @@ def _painted(picture: LabelPicture) -> Skyline | None:
         columns = counts > 0
         if not columns.any() or (best is not None and columns.sum() <= best.visible.sum()):
             continue
-        if bare and hits[0].mean() > 0.5:  # sky at the top, however thin
+        if bare and hits[0, columns].mean() > 0.5:  # sky at the top, however thin
             continue
         thick = counts[columns]
         share = columns.mean()
