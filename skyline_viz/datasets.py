@@ -282,7 +282,7 @@ def _match(root: Path, folder: Path, prefix: str, problems: list[str]) -> list[D
     photos = [file for file in files if not is_truth(file)]
     truths = [file for file in _skyline_files(images) if begins_like_a_skyline(file)]
     for place in (_folder(folder, name) for name in TRUTH_FOLDERS):
-        truths += [*_skyline_files(place), *find_photos(place)] if place else []
+        truths += _truths_in(root, place, problems) if place else []
     truths += [file for file in files if is_truth(file)]
     truths.sort(key=lambda file: file.suffix.lower() not in SKYLINE_SUFFIXES)
 
@@ -307,6 +307,19 @@ def _match(root: Path, folder: Path, prefix: str, problems: list[str]) -> list[D
         )
         for photo, candidates in matched.items()
     ]
+
+
+def _truths_in(root: Path, place: Path, problems: list[str]) -> list[Path]:
+    """Files of a folder of truths; ``labels/`` may be full of other programs' files."""
+    texts = _skyline_files(place)
+    if place.name.lower() == "labels":
+        for file in [file for file in texts if not begins_like_a_skyline(file)]:
+            problems.append(
+                f"{file.relative_to(root)} holds no skyline; skyline-annotate import reads files "
+                f"of other programs."
+            )
+            texts.remove(file)
+    return [*texts, *find_photos(place)]
 
 
 def _geopose3k(root: Path, folders: list[Path], problems: list[str]) -> list[DatasetItem]:

@@ -276,7 +276,8 @@ def _few(picture: LabelPicture) -> npt.NDArray[np.int64] | None:
     assert picture.counts is not None
     counts = picture.counts
     total = sum(counts.values())
-    main = [one for one, count in counts.items() if count >= 0.005 * total]
+    least = 0.005 * total if len(counts) > 16 else 1
+    main = [one for one, count in counts.items() if count >= least]
     if len(counts) <= 2 or not main:
         main = list(counts)
     elif 2 < len(main) <= _MOST:

@@ -148,7 +148,13 @@ def _of_16_bits(path: Path, orientation: int) -> LabelPicture:
 
     if orientation != 1:
         raise PhotoError(f"{path} has 16 bits a colour and is stored turned; save it upright.")
-    deep = cv2.imdecode(np.fromfile(path, np.uint8), cv2.IMREAD_UNCHANGED)
+    level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+    try:
+        deep = cv2.imdecode(np.fromfile(path, np.uint8), cv2.IMREAD_UNCHANGED)
+    except cv2.error:
+        deep = None
+    finally:
+        cv2.utils.logging.setLogLevel(level)
     if deep is None or deep.ndim != 3 or deep.shape[2] not in (3, 4):
         raise PhotoError(f"{path} has 16 bits a colour in a form that cannot be read.")
     colours, alpha = deep[:, :, 2::-1], deep[:, :, 3] if deep.shape[2] == 4 else None

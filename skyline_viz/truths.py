@@ -88,7 +88,9 @@ def begins_like_a_skyline(file: Path) -> bool:
         if not file.is_file():
             return False
         with file.open("rb") as opened:
-            return re.search(rb"column,row,visible|skyline\"", opened.read(80)) is not None
+            return (
+                re.search(rb'column,row,visible|"format":\s*"skyline"', opened.read(80)) is not None
+            )
     except OSError:
         return False
 
@@ -165,7 +167,8 @@ def _painted(picture: LabelPicture) -> Skyline | None:
     """
     if picture.values.ndim == 2 and picture.palette is None:
         return None
-    if picture.counts is not None and picture.palette is None and len(picture.counts) <= 2:
+    bare = picture.counts is not None  # there is hardly a photo beneath
+    if picture.counts is not None and picture.palette is None:
         hit = {(255, 0, 0), (0, 0, 255)} & set(picture.counts)
         if not hit:
             return None
@@ -183,6 +186,8 @@ def _painted(picture: LabelPicture) -> Skyline | None:
         counts = hits.sum(axis=0)
         columns = counts > 0
         if not columns.any() or (best is not None and columns.sum() <= best.visible.sum()):
+            continue
+        if bare and hits[0, columns].mean() > 0.5:  # sky at the top, however thin
             continue
         thick = counts[columns]
         share = columns.mean()

@@ -221,6 +221,9 @@ REFUSED = {
 }
 """Pictures that are no truth."""
 
+UNREADABLE = {**ASK, **REFUSED}
+"""Pictures of which no truth may be made without being asked for."""
+
 
 def _coat():
     coat = photo()

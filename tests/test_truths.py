@@ -103,6 +103,21 @@ def test_an_answer_never_turns_a_mask_upside_down(tmp_path, kind):
     said_about(path, terrain=right)
 
 
+@FEW
+@given(rows=st.lists(st.integers(0, 4), min_size=24, max_size=24).filter(any))
+def test_a_thin_sky_in_blue_is_no_painted_line(tmp_path, rows):
+    sky = Skyline(rows).to_mask(40)
+    for below in ((0, 0, 0), (0, 255, 0)):
+        pixels = np.where(sky[:, :, None], (0, 0, 255), below).astype(np.uint8)
+        pixels[30:, 3:9] = (90, 90, 90) if any(below) else pixels[30:, 3:9]
+        path = made.picture(tmp_path / "m.png", pixels)
+        try:
+            assert read_truth(path) == Skyline(rows)
+        except SkylineError as error:
+            assert "--sky" in str(error)
+        assert read_truth(path, sky="blue") == Skyline(rows)
+
+
 def test_sky_and_terrain_exclude_each_other(tmp_path):
     with pytest.raises(SkylineError, match="not both"):
         read_truth(made.SAME["0 and 1"](tmp_path), sky="0", terrain="1")

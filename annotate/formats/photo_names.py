@@ -44,39 +44,53 @@ class PhotoNames:
         self.names = sorted(set(names))
         self._known = frozenset(self.names)
         safe = safe_stems({*self.names, *below})
-        self._spelled: tuple[defaultdict[str, set[str]], ...] = (
-            defaultdict(set),  # the names
-            defaultdict(set),  # what ``skyline-viz detect`` calls the outputs of the folder
-            defaultdict(set),  # what files of a photo are called by us
-            defaultdict(set),  # the same without folders
+        self._schemes: tuple[dict[str, str], ...] = (
+            {name: name for name in self.names},
+            _outputs(self.names),
+            {safe[name]: name for name in self.names},
         )
+        self._loose: defaultdict[str, set[str]] = defaultdict(set)
         self._last: defaultdict[str, set[str]] = defaultdict(set)
-        outputs = _outputs(self.names)
         for name in self.names:
             path = PurePosixPath(name)
             plain = name[: len(name) - len(path.suffix)]
-            ours = {safe[name], plain, plain.replace("/", "-"), name.replace("/", "-")}
-            ways = ({name}, outputs.get(name, set()), ours, {path.stem, path.name})
-            for known, spelled in zip(self._spelled, ways, strict=True):
-                for one in spelled:
-                    known[one].add(name)
-                    known[f"/{_folded(one)}"].add(name)  # no file name has this slash
+            joined = {plain.replace("/", "-"), name.replace("/", "-")}
+            for one in {name, plain, safe[name], path.stem, path.name, *joined}:
+                self._loose[one].add(name)
+                self._loose[f"/{_folded(one)}"].add(name)  # no file name has this slash
             self._last[_parts(name)[-1]].add(name)
 
     def of_stems(self, stems: Iterable[str]) -> Matched:
-        """Photos of files that have a photo's name and another ending, or ``_mask`` besides."""
-        return _matched(stems, self._of_stem)
+        """Photos of files that have a photo's name and another ending, or ``_mask`` besides.
+
+        We call files after photos in three ways; that which fits more of the files is believed.
+        """
+        stems = list(stems)
+        fits = [
+            sum(stem in scheme or bare_stem(stem) in scheme for stem in stems)
+            for scheme in self._schemes
+        ]
+        return _matched(stems, lambda stem: self._of_stem(stem, fits))
 
     def of_references(self, references: Iterable[str]) -> Matched:
         """Photos of the names that label files hold."""
         return _matched(references, self._of_reference)
 
-    def _of_stem(self, stem: str) -> tuple[int, set[str]]:
-        spellings = [stem, f"/{_folded(stem)}", bare_stem(stem), f"/{_folded(bare_stem(stem))}"]
+    def _of_stem(self, stem: str, fits: list[int]) -> tuple[int, set[str]]:
+        spellings = dict.fromkeys((stem, bare_stem(stem)))
         for rank, spelled in enumerate(spellings):
-            for step, known in enumerate(self._spelled):
-                if found := known.get(spelled):
-                    return 4 * rank + step, found
+            knowing = [
+                (fit, scheme[spelled])
+                for fit, scheme in zip(fits, self._schemes, strict=True)
+                if spelled in scheme
+            ]
+            if knowing:
+                best = max(fit for fit, _ in knowing)
+                return rank, {name for fit, name in knowing if fit == best}
+        for rank, spelled in enumerate(spellings, 2):
+            found = self._loose.get(spelled) or self._loose.get(f"/{_folded(spelled)}")
+            if found:
+                return rank, found
         return 0, set()
 
     def _of_reference(self, reference: str) -> tuple[int, set[str]]:
@@ -89,8 +103,8 @@ class PhotoNames:
         return 1, {name for name, count in shared.items() if count == best}
 
 
-def _outputs(names: Iterable[str]) -> dict[str, set[str]]:
-    """What ``skyline-viz detect`` calls its files for photos directly in the folder."""
+def _outputs(names: Iterable[str]) -> dict[str, str]:
+    """The photos directly in the folder by what ``skyline-viz detect`` calls its files for them."""
     flat = [PurePosixPath(name) for name in names if "/" not in name]
     repeated = Counter(path.stem for path in flat)
     items = [
@@ -98,8 +112,10 @@ def _outputs(names: Iterable[str]) -> dict[str, set[str]]:
         for path in flat
     ]
     items.sort(key=lambda item: item.name)
-    called = output_names(items)
-    return {item.photo_path.name: {name} for item, name in zip(items, called, strict=True)}
+    return {
+        called: item.photo_path.name
+        for item, called in zip(items, output_names(items), strict=True)
+    }
 
 
 def _matched(names: Iterable[str], of: Callable[[str], tuple[int, set[str]]]) -> Matched:
