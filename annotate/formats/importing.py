@@ -18,7 +18,7 @@ from skyline_viz.skyline import Skyline, SkylineError
 
 @dataclass(frozen=True)
 class Imports:
-    """Labels that were read: iterate over them, or ask for their number."""
+    """Labels that were read: iterate over them, ask for their number, or for one by its place."""
 
     found: tuple[Imported, ...]
     """The labels, one a photo, except where the format carries several passes."""
@@ -34,6 +34,9 @@ class Imports:
 
     def __len__(self) -> int:
         return len(self.found)
+
+    def __getitem__(self, place: int) -> Imported:
+        return self.found[place]
 
 
 @dataclass
