@@ -11,13 +11,10 @@ at y = row.
 
 from __future__ import annotations
 
-import errno
 import os
-import struct
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
-from pathlib import Path
 from typing import Literal, TypeAlias
 
 import cv2
@@ -41,6 +38,7 @@ from skyline_viz.memory import FULL_MEGAPIXELS
 from skyline_viz.names import printable, recording_id, shown_in_viewer
 from skyline_viz.overlay import PATH, TRUTH
 from skyline_viz.report import report
+from skyline_viz.rerun_file import saved
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage_maps import QUANTITIES, log_detour, log_exact_map, log_maps, shown_pixels
 from skyline_viz.value_maps import Quantity
@@ -59,9 +57,6 @@ of every edge pixel, to four digits on hovering, and exact as numbers.
 """
 
 _BATCH = 1 << 18  # bytes: less than a map
-_FOOTER = struct.Struct("<QQ4x8s4x")
-"""How a recording ends: where its table of contents begins, its length, a checksum, the mark."""
-_FOOTER_MARK = b"RRF2FOOT"
 
 _RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
 
@@ -92,15 +87,12 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
                 APPLICATION, recording_id=recording_id(name), batcher_config=batches
             )
         recording.set_log_time_enabled(False)  # else a photo would be a film of its stages
-        recording.save(temporary)
-        try:
-            recording.send_recording_name(shown_in_viewer(printable(name)))
-            yield recording
-        except KeyboardInterrupt as stopped:
-            interrupted = stopped
-        finally:
-            recording.disconnect()  # writes the footer, without which the file is not whole
-        _check_whole(temporary)
+        with saved(recording, temporary):
+            try:
+                recording.send_recording_name(shown_in_viewer(printable(name)))
+                yield recording
+            except KeyboardInterrupt as stopped:
+                interrupted = stopped
     if interrupted:
         raise interrupted
 
@@ -112,25 +104,6 @@ def fidelity_of(pixels: int, full_megapixels: float = FULL_MEGAPIXELS) -> Fideli
     ('full', 'lean')
     """
     return "full" if pixels <= full_megapixels * 1e6 else "lean"
-
-
-def _check_whole(file: Path) -> None:
-    """Refuse a recording that could not be written: Rerun's thread that writes keeps it to itself.
-
-    Raises:
-        OSError: What keeps the file from growing, or that it breaks off.
-    """
-    size = file.stat().st_size
-    with file.open("r+b") as opened:
-        opened.seek(max(size - _FOOTER.size, 0))
-        tail = opened.read()
-        if len(tail) == _FOOTER.size:
-            start, length, mark = _FOOTER.unpack(tail)
-            if mark == _FOOTER_MARK and start + length + _FOOTER.size == size:
-                return
-        opened.write(bytes(_BATCH))  # which meets what kept Rerun from writing
-        opened.flush()
-    raise OSError(errno.EIO, "the recording breaks off", str(file))
 
 
 def log_detection(
