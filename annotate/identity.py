@@ -21,6 +21,7 @@ from annotate.folder import photos_below
 from skyline_viz.arrays import U8
 from skyline_viz.photo import PhotoError, photo_size, read_photo
 
+_FEW = 50  # photos that are read without asking
 _SETTLED = 2_000_000_000  # nanoseconds after which a change would show in the times of a file
 
 
@@ -169,30 +170,40 @@ def scan(folder: Path, known: Sequence[Known]) -> tuple[list[Found], list[str]]:
 def looked_into(folder: Path, found: list[Found], known: Sequence[Known]) -> list[Found]:
     """The same photos, with the pixels of those that may be one whose file was changed.
 
-    Nothing is read unless a photo with labels is not there any more.
+    Nothing is read unless a photo with labels is not there any more. Photos that are known and
+    have no label are read, too, where they are few, or have the name of one that is gone: each
+    once, and a large folder is not read as a whole.
     """
     here = {one.digest for one in found}
     lost = [one.photo for one in known if one.labelled and one.photo.digest not in here]
     lost = [one for one in lost if one.pixels]
-    if not lost:
-        return found
-    sizes = {(one.width, one.height) for one in lost}
-    stems = {(one.width, one.height, PurePosixPath(one.name).stem) for one in lost}
     labels = {one.photo.digest: one.labelled for one in known}
+    new = [one for one in found if one.digest not in labels and _is_as_large(one, lost)]
+    read = _read(folder, new)
+    lost = [one for one in lost if one.pixels not in {one.pixels for one in read.values()}]
+    copies = [one for one in found if not labels.get(one.digest, True) and _is_as_large(one, lost)]
+    if len(copies) > _FEW:
+        stems = {PurePosixPath(one.name).stem for one in lost}
+        copies = [one for one in copies if PurePosixPath(one.name).stem in stems]
+    read |= _read(folder, copies)
+    return [read.get(one.digest, one) for one in found]
 
-    def looked(one: Found) -> Found:
-        size = (one.width, one.height)
-        new = one.digest not in labels and size in sizes
-        alike = (*size, PurePosixPath(one.name).stem) in stems
-        renamed = not labels.get(one.digest, True) and alike  # a copy that took its place
-        if one.pixels or not (new or renamed):
-            return one
+
+def _is_as_large(one: Found, photos: Sequence[Photo]) -> bool:
+    """Whether one of some photos has as many columns and rows."""
+    return (one.width, one.height) in {(photo.width, photo.height) for photo in photos}
+
+
+def _read(folder: Path, found: Sequence[Found]) -> dict[str, Found]:
+    """Photos with their pixels, by digest."""
+    read = {}
+    for one in found:
         try:
-            return replace(one, pixels=pixel_digest(read_photo(folder / one.name)))
+            pixels = one.pixels or pixel_digest(read_photo(folder / one.name))
         except PhotoError:
-            return one  # said when it is opened
-
-    return [looked(one) for one in found]
+            continue  # said when it is opened
+        read[one.digest] = replace(one, pixels=pixels)
+    return read
 
 
 def changed_files(found: Iterable[Found], known: Sequence[Known]) -> dict[int, Found]:

@@ -261,7 +261,10 @@ def _else_in(root: Path) -> str:
     if unread := left_out(find_unread(root), root):
         return f"; {unread[:-1]}"
     others = [one for one in _folders(root) if one.name.lower() not in TRUTH_FOLDERS]
-    inside = [(one.name, len(without_truths(find_photos(one)))) for one in others]
+    inside = [
+        (one.name, sum(bare_stem(file.stem) == file.stem for file in find_photos(one)))
+        for one in others
+    ]
     if full := [f"{name} ({count})" for name, count in inside if count]:
         return f" itself, but folders in it do: {', '.join(full)}; name those"
     return ""

@@ -95,7 +95,7 @@ def read_label_picture(path: str | os.PathLike[str]) -> LabelPicture:
         image.load()
         if deep:
             return _of_16_bits(Path(path), orientation)
-        return _of(upright_image(image, orientation))
+        return _of(upright_image(image, orientation), Path(path))
 
 
 def _opened(file: BinaryIO) -> tuple[Image.Image, int]:
@@ -110,7 +110,7 @@ def _opened(file: BinaryIO) -> tuple[Image.Image, int]:
     return image, orientation_of(image)
 
 
-def _of(image: Image.Image) -> LabelPicture:
+def _of(image: Image.Image, path: Path) -> LabelPicture:
     """The values of an image that Pillow holds without loss."""
     opaque = _opaque(image)
     if image.mode in ("P", "PA"):
@@ -123,7 +123,7 @@ def _of(image: Image.Image) -> LabelPicture:
     if image.mode == "F" or image.mode.startswith("I"):
         numbers = np.asarray(image)
         if not np.isfinite(numbers).all():
-            raise PhotoError(f"{_name(image)} holds values that are not finite.")
+            raise PhotoError(f"{path} holds values that are not finite.")
         return LabelPicture(numbers, _counted(numbers), opaque=opaque)
     colour = image.convert("RGB")
     found = colour.getcolors(MANY)
@@ -209,7 +209,3 @@ def _counted(numbers: npt.NDArray[Any]) -> dict[Any, int] | None:
 
 def _colourless(colours: U8) -> bool:
     return bool((colours.max(axis=-1) - colours.min(axis=-1)).max(initial=0) < 32)
-
-
-def _name(image: Image.Image) -> str:
-    return str(getattr(image, "filename", "") or "the picture")

@@ -158,7 +158,7 @@ def _read(file: Path) -> dict[str, Any] | None:
 
 
 def _write(file: Path, record: dict[str, Any]) -> None:
-    text = json.dumps(record, ensure_ascii=False)
+    text = json.dumps(record)
     write_text(file, f"{hashlib.sha256(text.encode()).hexdigest()}\n{text}")
 
 

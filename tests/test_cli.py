@@ -329,7 +329,11 @@ def test_a_full_disk_ends_the_run_with_a_sentence(say, hills, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(detect_command, "_detect", full)
-    assert say("detect", hills) == (1, "", "skyline-viz: no space left on device.\n")
+    assert say("detect", hills) == (
+        1,
+        "",
+        "skyline-viz: the output cannot be written: no space left on device.\n",
+    )
 
 
 def test_an_interrupt_ends_with_130_and_leaves_no_half_file(say, hills, tmp_path, monkeypatch):

@@ -105,6 +105,7 @@ def test_nothing_can_be_changed(tmp_path):
 def test_opening_reads_no_pixels(tmp_path, monkeypatch):
     for layout in (basalt, web, ch1, geopose3k):
         layout(tmp_path / layout.__name__)
+    Image.init()  # decodes pictures of its own
     monkeypatch.setattr(Image.Image, "load", lambda self: pytest.fail("decoded"))
     for layout in (basalt, web, ch1, geopose3k):
         dataset = sv.open_dataset(tmp_path / layout.__name__)

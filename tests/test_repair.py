@@ -103,6 +103,7 @@ def test_labels_of_an_older_version_are_read_and_stay_as_they_are(labelled, caps
     with closing(sqlite3.connect(labelled / NAME)) as database:
         database.execute("PRAGMA journal_mode = DELETE")
         for statement in (
+            "DROP TABLE folder",
             "DROP TABLE set_aside",
             "ALTER TABLE photos DROP COLUMN pixels",
             "ALTER TABLE photos DROP COLUMN touched",

@@ -13,6 +13,7 @@ from typing import Any
 from xml.etree import ElementTree as ET  # documents with a DOCTYPE are refused
 
 from annotate.formats.common import FormatError
+from skyline_viz.files import read_at_most
 
 MOST_BYTES = 500_000_000
 """Bytes of a text file."""
@@ -29,12 +30,7 @@ def read_text(file: Path) -> str:
         FormatError: It cannot be read, is too large, or is in another encoding.
     """
     try:
-        if not file.is_file():
-            raise FormatError(f"{file} is no file.")
-        if (size := file.stat().st_size) > MOST_BYTES:
-            limit = MOST_BYTES // 1_000_000
-            raise FormatError(f"{file} has {size // 1_000_000:,} MB, and up to {limit} are read.")
-        whole = file.read_bytes()
+        whole = read_at_most(file, MOST_BYTES)
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise FormatError(f"{file} cannot be read: {reason}.") from error
