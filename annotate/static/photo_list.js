@@ -94,8 +94,9 @@ export class PhotoList {
     title.className = "title";
     title.textContent = photo.name;
     title.title = photo.name;
+    item.title = photo.problem;
     const sub = document.createElement("div");
-    const lost = photo.missing ? "missing" : photo.too_large ? "too large" : "";
+    const lost = photo.missing ? "missing" : photo.too_large ? "too large" : photo.problem ? "cannot be read" : "";
     sub.className = `sub ${lost ? "missing" : photo.status.split(" ")[0]}`;
     sub.textContent = [lost || photo.status, photo.blind ? "blind" : "", ...photo.tags].filter(Boolean).join(", ");
     words.append(title, sub);
