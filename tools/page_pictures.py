@@ -38,7 +38,8 @@ def use(page, out, name):
     page.shows("cloudy-4")
     page.page.locator(".item", has_text="spires-5").click()
     page.shows("spires-5")
-    photo = int(page.page.locator("[aria-selected=true]").get_attribute("data-photo"))
+    chosen = page.page.locator("[aria-selected=true]", has_text="spires-5")
+    photo = int(chosen.get_attribute("data-photo"))
     truth = read_truth(SAMPLES.parent / "masks" / "spires-5.png").rows
     for last in (False, True):
         column = int(abs(page.document(photo)["rows"] - truth).argmax())
