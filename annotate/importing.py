@@ -31,8 +31,8 @@ def checked(
 ) -> Log:
     """A label that can be kept.
 
-    A label that comes with its log keeps it. Any other counts as drawn by hand; in a column that
-    is all sky the line cannot be seen.
+    A label that comes with its log keeps it. Any other, also one that was only looked at, counts as
+    drawn by hand; in a column that is all sky the line cannot be seen.
 
     Args:
         one: What was read.
@@ -51,13 +51,17 @@ def checked(
         check_annotator(annotator)
         if not 1 <= number <= MOST_PASSES:
             raise ValueError(f"passes are numbered from 1 to {MOST_PASSES:,}.")
-        if told is not None and told.operations:
+        worked_on = told is not None and any(one.get("kind") != "open" for one in told.operations)
+        if told is not None and worked_on:
             line = Line(one.skyline, told.origin)
             operations = [_operation(place, said) for place, said in enumerate(told.operations, 1)]
         else:
-            operations, line = _drawn(one, photo.height, told.status if told else status)
+            done = told.status if told and told.status != "to do" else status
+            operations, line = _drawn(one, photo.height, done)
         rows = [(place, *operation) for place, operation in enumerate(operations, 1)]
-        folded(State(Edits(photo.height, photo.width)), rows)
+        state = folded(State(Edits(photo.height, photo.width)), rows)
+        if told is not None and worked_on and state.status != told.status:
+            raise LogError(f"it says {told.status}, and its log ends with {state.status}.")
     except (LogError, ValueError) as error:
         raise FormatError(
             f"{place}: {shown(str(error)).rstrip('.')}; it is not imported."

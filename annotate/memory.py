@@ -9,10 +9,10 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
+from annotate.opened import BusyError
 from annotate.store import Photo
 from skyline_viz.detection import Detection
 from skyline_viz.memory import available, in_words
-from skyline_viz.photo import PhotoError
 
 BUDGET = 1_500_000_000
 """Bytes that open photos and what is kept of them may take; the shown one stays in any case."""
@@ -38,11 +38,11 @@ def require_room(photo: Photo) -> None:
     """Refuse to open a photo that does not fit into what is left of the memory.
 
     Raises:
-        PhotoError: It does not; the message says what it needs.
+        BusyError: It does not; the message says what it needs.
     """
     need, free = OPENING * photo.height * photo.width, available()
     if free is not None and need > free:
-        raise PhotoError(
+        raise BusyError(
             f"{photo.name} has {photo.height * photo.width / 1e6:.0f} megapixels and needs about "
             f"{in_words(need)} of memory to open, and {in_words(free)} are free."
         )

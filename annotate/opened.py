@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -16,11 +17,17 @@ from skyline_viz.photo import PhotoError, read_photo, read_photo_with_notes
 if TYPE_CHECKING:
     from annotate.store import Store
 
+_WRITING = 10_000_000_000  # nanoseconds after its last change in which a file may grow on
+_CHANGED = 3  # place of the time of that change among a file's marks
 _TRIES = 3  # of reading a file that is being written
 
 
 class ReplacedError(PhotoError):
     """Where the photo was lies another one; the message is one sentence that says so."""
+
+
+class BusyError(PhotoError):
+    """The photo cannot be read at the moment; the message is one sentence that says why."""
 
 
 class Opened:
@@ -44,6 +51,7 @@ class Opened:
 
         Raises:
             ReplacedError: It is another photo now.
+            BusyError: It is being written.
             PhotoError: It has vanished, or cannot be read any more.
         """
         path = self._store.folder / self._photo.name
@@ -54,7 +62,13 @@ class Opened:
             raise PhotoError(
                 f"{self._photo.name} is not there any more, so nothing is kept for it."
             )
-        if pixel_digest(read_photo(path)) != self._known or _marks(path) != marks:
+        try:
+            same = pixel_digest(read_photo(path)) == self._known
+        except PhotoError as error:
+            if time.time_ns() - marks[_CHANGED] < _WRITING:
+                raise BusyError(f"{self._photo.name} is being written, or damaged.") from error
+            raise
+        if not same or _marks(path) != marks:
             raise ReplacedError(
                 f"{self._photo.name} was replaced by another photo while it was open, so nothing "
                 "more is kept for it; open the folder again to label what is there now."
@@ -126,7 +140,7 @@ def _read(store: Store, photo: Photo) -> tuple[U8, Marks]:
         if marks is not None and _marks(path) == marks:
             break
     else:
-        raise PhotoError(f"{photo.name} is being written by another program.")
+        raise BusyError(f"{photo.name} is being written by another program.")
     for sentence in notes:
         note(sentence)
     height, width = pixels.shape[:2]

@@ -20,6 +20,7 @@ from annotate.formats import FormatError
 from annotate.learning import Learner
 from annotate.lines import LineError
 from annotate.log import LogError
+from annotate.opened import BusyError
 from annotate.security import Guard
 from annotate.store import StaleError
 from annotate.workbench import UnknownPhotoError, Workbench
@@ -38,6 +39,7 @@ _STATUSES: dict[type[Exception], int] = {
     EditError: 422,
     UnknownPhotoError: 404,
     PhotoError: 410,
+    BusyError: 503,
     MethodError: 422,
     FormatError: 422,
     StoreError: 507,

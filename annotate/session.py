@@ -75,7 +75,7 @@ class Session:
             kept = self._store.known(asked)
             if kept is not None:
                 return kept
-            self._opened.confirm()
+            self._confirm()
             if isinstance(operation, SetTag | SetStatus | Open):
                 return self._append(asked, None)
             return self._edit(operation.on(self.wire.edits), asked)
@@ -88,6 +88,14 @@ class Session:
         """Do again what was taken back; arguments, result and errors are those of `apply`."""
         return self._step(Redo(status=True), revision, id)
 
+    def _confirm(self) -> None:
+        """Make sure that an operation can be kept, and is of the photo that is open.
+
+        The labels come first: where the whole folder is away, it may come back with its photos.
+        """
+        self._store.confirm_place()
+        self._opened.confirm()
+
     def refresh(self) -> None:
         """Do now what the next preview would wait for."""
         with self.lock:
@@ -99,7 +107,7 @@ class Session:
             kept = self._store.known(asked)
             if kept is not None:
                 return kept
-            self._opened.confirm()
+            self._confirm()
             state = self.state
             if not (state.steps if isinstance(operation, Undo) else state.taken):
                 raise EditError(f"there is nothing to {operation.kind}.")

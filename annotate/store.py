@@ -363,7 +363,7 @@ class Store:
     @contextmanager
     def _writing(self) -> Iterator[sqlite3.Connection]:
         with self._lock, sentences(self.folder / NAME):
-            self._confirm_place()
+            self.confirm_place()
             self._connection.execute("BEGIN IMMEDIATE")
             try:
                 yield self._connection
@@ -372,9 +372,14 @@ class Store:
                 if self._connection.in_transaction:
                     self._connection.execute("ROLLBACK")
                 raise
-            self._confirm_place()  # else it was kept where nobody will find it
+            self.confirm_place()  # else it was kept where nobody will find it
 
-    def _confirm_place(self) -> None:
+    def confirm_place(self) -> None:
+        """Make sure that the labels still lie where they were opened.
+
+        Raises:
+            StoreError: They do not, and nothing can be kept.
+        """
         if self._place:
             self._place.confirm()
 

@@ -20,7 +20,7 @@ import annotate.opened as opened
 import annotate.photo_table as photo_table
 from annotate.cli import main
 from annotate.contents import Contents
-from annotate.database import NAME
+from annotate.database import NAME, StoreError
 from annotate.formats import FORMATS, import_labels
 from annotate.identity import pixel_digest
 from annotate.joined import joined
@@ -313,6 +313,35 @@ def test_pixels_are_those_of_the_photo_or_none(folder):
         read_whole(store, photo)
     assert not store.is_here(photo)
     store.close()
+
+
+def test_a_folder_that_is_away_for_a_while_is_no_photo_that_has_vanished(folder):
+    bench = workbench(folder)
+    photo = next(one for one in bench.photos.values() if one.name == "hill-1.jpg")
+    session = bench.session(photo.id)
+    away = folder.rename(folder.parent / "away")
+    with pytest.raises(StoreError, match="moved, removed or replaced"):
+        session.apply(SetStatus(status="accepted"), -1)
+    away.rename(folder)
+    session.apply(SetStatus(status="accepted"), -1)
+    bench.close()
+    assert statuses(folder)["hill-1.jpg"] == "accepted"
+
+
+def test_a_photo_that_is_being_written_is_waited_for(folder):
+    with served(folder) as page:
+        photos = {one["name"]: one["id"] for one in page.get("/api/photos").json()["photos"]}
+        at = f"/api/photos/{photos['hill-1.jpg']}"
+        revision = page.get(at).json()["revision"]
+        whole = (folder / "hill-1.jpg").read_bytes()
+        operation = {"kind": "status", "status": "rejected"}
+        body = {"id": "id-1", "revision": revision, "operation": operation}
+        (folder / "hill-1.jpg").write_bytes(whole[: len(whole) // 2])
+        assert page.post(f"{at}/operations", json=body).status_code == 503
+        os.utime(folder / "hill-1.jpg", (1, 1))  # it has been so for long: it is damaged
+        assert page.post(f"{at}/operations", json=body).status_code == 410
+        (folder / "hill-1.jpg").write_bytes(whole)
+        assert page.post(f"{at}/operations", json=body).status_code == 200
 
 
 # What it costs

@@ -151,6 +151,23 @@ def test_a_link_to_a_device_is_not_read_for_ever(folder, tmp_path, capsys):
     assert "it is a pipe or a device, not a file" in capsys.readouterr().err
 
 
+def test_a_label_that_was_only_looked_at_is_a_line_to_be_reviewed(document, folder):
+    looked = {"operations": SOUND[:1], "status": "to do"}
+    assert imported(folder, changed(document, **looked)) == 0
+    with served(folder, annotator="ann") as page:
+        (photo,) = (
+            one for one in page.get("/api/photos").json()["photos"] if one["name"] == "hill-1.png"
+        )
+        shown = page.get(f"/api/photos/{photo['id']}").json()
+    assert (shown["status"], set(shown["rows"])) == ("needs review", {11})
+
+
+def test_what_a_label_says_of_itself_follows_from_its_log(document, folder, capsys):
+    capsys.readouterr()
+    assert imported(folder, changed(document, status="rejected")) == 1
+    assert "it says rejected, and its log ends with accepted" in capsys.readouterr().err
+
+
 def test_of_two_labels_of_one_pass_in_a_file_the_first_counts(document, folder, capsys):
     twice = {**document, "labels": [*document["labels"], document["labels"][0]]}
     assert imported(folder, twice) == 1
