@@ -41,6 +41,9 @@ _ALONE = dict.fromkeys(("HTTPS_PROXY", "HTTP_PROXY", "ALL_PROXY"), f"http://{LOO
 }
 """A way out that leads nowhere: the viewer asks for news and reports its use, and has no switch."""
 
+_ATTEMPTS = 3  # under load, the viewer gives up on a card now and then
+_WAITING = 0.001  # share of a picture in which signs of waiting move
+
 _START_SECONDS = 120.0  # on a machine that is busy with something else
 _STILL_SECONDS = 60.0  # without any change, after which nothing more is expected
 _PICTURE_SECONDS = 600.0  # that pictures may take at most, as long as something changes
@@ -51,6 +54,10 @@ _ERRORS = (ConnectionError, RuntimeError, OSError, ValueError)  # what a client 
 
 class ViewerError(OSError):
     """The viewer could not be started or did not do its work; the message says why."""
+
+
+class UnsteadyError(ViewerError):
+    """The viewer waits for something that never comes; another one may fare better."""
 
 
 def has_display() -> bool:
@@ -131,8 +138,14 @@ def save_picture(source: str | Path, path: Path, window: tuple[int, int] = WINDO
     Raises:
         ViewerError: No viewer, or the picture stays blank.
     """
-    with headless_viewer([source], window) as client:
-        picture = settled_picture(client)
+    for attempt in range(_ATTEMPTS):
+        with headless_viewer([source], window) as client:
+            try:
+                picture = settled_picture(client)
+                break
+            except UnsteadyError:  # another viewer asks for everything again
+                if attempt == _ATTEMPTS - 1:
+                    raise
     _save(picture, path)
 
 
@@ -244,9 +257,11 @@ def settled_picture(client: ViewerClient) -> Image.Image:
     """Picture of a viewer when nothing moves any more.
 
     A busy machine is waited for: as long as pictures change, or something is being loaded, for up
-    to ten minutes; a picture that stays blank for a minute is the end.
+    to ten minutes; a picture that stays blank for a minute is the end, and so is one in which
+    nothing but a sign of waiting has moved for so long.
 
     Raises:
+        UnsteadyError: A part of it never comes.
         ViewerError: It stays blank, or never settles.
     """
     before: np.ndarray | None = None
@@ -260,8 +275,11 @@ def settled_picture(client: ViewerClient) -> Image.Image:
         same = same + 1 if still else 0
         if same >= _STEADY and not loading and now.std() > 1:
             return picture
-        if loading or not still:
+        moved = before is None or (now != before).any(axis=2).mean() > _WAITING
+        if loading or moved:
             changed = monotonic()
+        elif monotonic() > changed + _STILL_SECONDS and same == 0:
+            raise UnsteadyError("a part of what the viewer shows never came.")
         elif same >= _STEADY and monotonic() > changed + _STILL_SECONDS:
             raise ViewerError(f"the viewer's picture stayed blank for {_STILL_SECONDS:.0f} s.")
         before = now

@@ -46,10 +46,24 @@ def test_a_busy_machine_is_waited_for(monkeypatch):
     assert clock.now > 400
 
 
+class Spinning(Client):
+    """A viewer of which a card never comes: nothing moves but a dot."""
+
+    def take_screenshot(self):
+        self.taken += 1
+        pixels = np.zeros((40, 40, 3), np.uint8)
+        pixels[:20] = 200
+        pixels[30, self.taken % 3] = 255
+        file = io.BytesIO()
+        Image.fromarray(pixels).save(file, "png")
+        return file.getvalue()
+
+
 @pytest.mark.parametrize(
     ("client", "says", "waited"),
     [
         (Client(changes=10**6), "no steady picture within 600 s", 600),
+        (Spinning(changes=0), "a part of what the viewer shows never came", 60),
         (Client(changes=0, blank=True), "stayed blank for 60 s", 60),
     ],
 )
