@@ -51,9 +51,9 @@ class Spinning(Client):
 
     def take_screenshot(self):
         self.taken += 1
-        pixels = np.zeros((40, 40, 3), np.uint8)
-        pixels[:20] = 200
-        pixels[30, self.taken % 3] = 255
+        pixels = np.zeros((80, 80, 3), np.uint8)
+        pixels[:40] = 200
+        pixels[60, self.taken % 3] = 255
         file = io.BytesIO()
         Image.fromarray(pixels).save(file, "png")
         return file.getvalue()
