@@ -144,6 +144,8 @@ def _by_pillow(file: BinaryIO) -> Opened:
         photo.notes.append("is an animation, of which the first picture is read")
     if image.format == "PPM":
         _look_at_ppm(photo)
+    if image.format == "JPEG2000" and image.mode.startswith("RGB"):
+        _look_at_jpeg2000(photo)
     return photo
 
 
@@ -194,6 +196,18 @@ def _look_at_ppm(photo: Opened) -> None:
     if found and found[2] != b"65535":
         photo.white = 65535  # to which Pillow scales what is white
     elif found and found[1] == b"6":
+        photo.deep = lambda: _by_opencv(photo.file)
+
+
+def _look_at_jpeg2000(photo: Opened) -> None:
+    """Find out whether colours of a JPEG 2000 have more than eight bits."""
+    photo.file.seek(0)
+    head = photo.file.read(1 << 16)
+    photo.file.seek(0)
+    begin = head.find(b"\xff\x4f\xff\x51")  # the codestream, and how it is laid out
+    depth = (head[begin + 42] & 127) + 1 if 0 <= begin < len(head) - 42 else 8
+    if depth > 8:
+        photo.white = (1 << depth) - 1 if depth < 16 else None
         photo.deep = lambda: _by_opencv(photo.file)
 
 

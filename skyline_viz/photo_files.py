@@ -4,7 +4,7 @@ import os
 import stat
 from pathlib import Path
 
-from skyline_viz.photo_kinds import PHOTO_SUFFIXES, is_unread_image
+from skyline_viz.photo_kinds import PHOTO_SUFFIXES, why_unread
 
 
 def find_photos(folder: str | os.PathLike[str]) -> list[Path]:
@@ -33,7 +33,7 @@ def find_unread(folder: str | os.PathLike[str]) -> list[Path]:
     return sorted(
         file
         for file in Path(folder).iterdir()
-        if is_unread_image(file) and not file.name.startswith(".") and file.is_file()
+        if not file.name.startswith(".") and why_unread(file) is not None
     )
 
 

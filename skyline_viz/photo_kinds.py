@@ -3,6 +3,7 @@
 Nothing here decodes. A kind that is not read is refused by name, with what to do about it.
 """
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal
@@ -41,6 +42,7 @@ _NOT_READ = {
     ".dds": "DDS",
     ".fits": "FITS",
     ".pam": "PAM",
+    ".qoi": "QOI",
 }
 """Endings of pictures in other formats that are not read, and what these are called."""
 
@@ -102,9 +104,31 @@ def unknown(path: Path) -> str:
     return "is not an image in a format that can be read"
 
 
-def is_unread_image(file: Path) -> bool:
-    """Whether a name is that of a picture in a format that is not read."""
-    return file.suffix.lower() in RAW_SUFFIXES or file.suffix.lower() in _NOT_READ
+def why_unread(file: Path) -> str | None:
+    """Why what looks like a picture is not taken; None for a photo, and for anything else."""
+    suffix = file.suffix.lower()
+    if _is_raw(file):
+        return "raw files of cameras: develop them to JPEG or TIFF first"
+    if suffix in _NOT_READ:
+        return _NOT_READ[suffix]
+    if suffix in PHOTO_SUFFIXES:
+        return None if file.is_file() else "no regular file, or a link to nothing"
+    if suffix.startswith(".sqlite"):
+        return None  # to open and close a database would end the locks that this process has on it
+    try:
+        with open(file, "rb", opener=_at_once) as opened:  # a path has no opener
+            head = opened.read(16)
+    except OSError:
+        return None  # a folder, most likely
+    heif = head[4:8] == b"ftyp" and head[8:12] in {*_HEIF_BRANDS, b"avif"}
+    webp = head[:4] == b"RIFF" and head[8:12] == b"WEBP"
+    others = (b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n", b"GIF8", b"\0\0\0\x0cjP  ")
+    return "not named as a photo is" if heif or webp or head.startswith(others) else None
+
+
+def _at_once(path: str, flags: int) -> int:
+    """Open a file without waiting for the other end of a pipe."""
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def left_out(files: Iterable[Path], within: Path) -> str | None:
@@ -116,8 +140,7 @@ TIFF first); b.jxl (JPEG XL).'
     """
     groups: dict[str, list[str]] = {}
     for file in sorted(files, key=lambda file: (not _is_raw(file), file)):
-        raw = "raw files of cameras: develop them to JPEG or TIFF first"
-        reason = raw if _is_raw(file) else _NOT_READ[file.suffix.lower()]
+        reason = why_unread(file) or "not taken"
         groups.setdefault(reason, []).append(file.relative_to(within).as_posix())
     if not groups:
         return None

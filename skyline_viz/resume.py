@@ -1,8 +1,8 @@
 """Photos that are finished outlive a run that is not: the next run goes on.
 
-A command that writes into a folder keeps what each photo came to in ``OUT/unfinished`` as soon as
-it is known, a small file a photo, whole or not at all. Its name is a digest of all that it was made
-from: photo, truth, what detects, settings, and the code of this program. The next run of the same
+A command that writes into a folder keeps what each photo came to below ``OUT/unfinished`` as soon
+as it is known, a small file a photo, whole or not at all. Its name is a digest of all that it was
+made from: photo, truth, what detects, settings, and the code of this program. The next run of the same
 command finds what fits, and does the rest; what is damaged is done again. When everything has been
 written, the folder goes.
 
@@ -13,8 +13,9 @@ from __future__ import annotations
 
 import hashlib
 import json
-import shutil
+import re
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from functools import cache
 from pathlib import Path
@@ -29,7 +30,9 @@ from skyline_viz.methods.protocol import Method
 from skyline_viz.methods.registry import method_digest
 
 FOLDER = "unfinished"
-"""Name of the folder, in that of the outputs."""
+"""Name of the folder, in that of the outputs; in it is one for each command."""
+
+_RECORD = re.compile(r"[0-9a-f]{64}(-\w+)?\.(json|npz)")
 
 Task = TypeVar("Task", bound=Named)
 Value = TypeVar("Value")
@@ -60,9 +63,9 @@ class Kept:
     """Photos that have been asked for."""
 
     @classmethod
-    def within(cls, out: Path | None) -> Kept:
-        """What is kept in a folder of outputs, or nothing without one."""
-        return cls(out / FOLDER if out else None)
+    def within(cls, out: Path | None, command: str) -> Kept:
+        """What a command keeps in a folder of outputs, or nothing without one."""
+        return cls(out / FOLDER / command if out else None)
 
     def run(
         self,
@@ -111,9 +114,15 @@ class Kept:
             _write(self.folder / f"{key}.json", record)
 
     def remove(self) -> None:
-        """Forget it all: the run has written everything."""
-        if self.folder is not None:
-            shutil.rmtree(self.folder, ignore_errors=True)
+        """Forget it all: the run has written everything. What is not ours stays."""
+        if self.folder is None:
+            return
+        with suppress(OSError):
+            for file in self.folder.iterdir():
+                if _RECORD.fullmatch(file.name):
+                    file.unlink()
+            self.folder.rmdir()
+            self.folder.parent.rmdir()  # unless another command has kept something
 
 
 @dataclass(frozen=True)

@@ -268,7 +268,11 @@ def settled_picture(client: ViewerClient) -> Image.Image:
     same = 0
     deadline, changed = monotonic() + _PICTURE_SECONDS, monotonic()
     while monotonic() < deadline:
-        picture = Image.open(io.BytesIO(client.take_screenshot())).convert("RGB")
+        try:
+            taken = client.take_screenshot()
+        except TimeoutError:  # of the call: what is large takes its time
+            continue
+        picture = Image.open(io.BytesIO(taken)).convert("RGB")
         now = np.asarray(picture)
         still = before is not None and np.array_equal(now, before)
         loading = client.get_state().loading

@@ -50,11 +50,11 @@ class Case:
 
 CASES = {
     "detect": Case(("detect", "DATA", "--out", "OUT", "--workers", "2"), "*.csv"),
-    "evaluate": Case(("evaluate", "DATA", "--out", "OUT", "--workers", "2"), "unfinished/*.json"),
-    "diagnose": Case(("diagnose", "DATA", "--out", "OUT", "--workers", "2"), "unfinished/*.json"),
+    "evaluate": Case(("evaluate", "DATA", "--out", "OUT", "--workers", "2"), "unfinished/*/*.json"),
+    "diagnose": Case(("diagnose", "DATA", "--out", "OUT", "--workers", "2"), "unfinished/*/*.json"),
     "tables": Case(
         ("tables", "DATA", "--out", "OUT", "--workers", "2", "--method", "paper", "edges"),
-        "unfinished/*.json",
+        "unfinished/*/*.json",
     ),
     "gallery": Case(("gallery", "DATA", "--out", "OUT", "--workers", "2", "--serve"), "*/*.rrd"),
     "train": Case(("train", "DATA", "--out", "OUT/bank.npz", "--workers", "2"), "workers"),

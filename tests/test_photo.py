@@ -21,6 +21,7 @@ from skyline_viz.photo import (
     read_photo,
     write_photo,
 )
+from skyline_viz.photo_files import find_unread
 
 # A picture that survives JPEG: 16x16 blocks of one colour, no two rotations of it alike.
 BLOCKS = np.array(
@@ -429,3 +430,21 @@ def test_find_photos(tmp_path):
 def test_find_photos_in_a_missing_folder(tmp_path):
     with pytest.raises(FileNotFoundError):
         find_photos(tmp_path / "missing")
+
+
+def test_what_looks_like_a_picture_and_is_not_taken_is_found(tmp_path):
+    picture = tmp_path / "a.jpg"
+    write_photo(picture, np.zeros((16, 16, 3), np.uint8))
+    for name in ("bare", "a.jpg~", "b.jpg.bak"):
+        (tmp_path / name).write_bytes(picture.read_bytes())
+    (tmp_path / "gone.jpg").symlink_to(tmp_path / "nothing")
+    (tmp_path / "words.txt").write_text("no picture")
+    (tmp_path / "x.sqlite").write_bytes(picture.read_bytes())
+    (tmp_path / "folder").mkdir()
+    os.mkfifo(tmp_path / "pipe")
+    assert [one.name for one in find_unread(tmp_path)] == [
+        "a.jpg~",
+        "b.jpg.bak",
+        "bare",
+        "gone.jpg",
+    ]

@@ -76,7 +76,7 @@ def test_the_next_run_goes_on_and_comes_to_the_same(name, data, tmp_path, monkey
     with monkeypatch.context() as patched:
         Stops(patched, after=4)
         assert main([*words, str(tmp_path / "out")]) == 130
-    assert list((tmp_path / "out" / FOLDER).glob("*.json"))
+    assert list((tmp_path / "out" / FOLDER).glob("*/*.json"))
     capsys.readouterr()
     with monkeypatch.context() as patched:
         counted = Stops(patched, after=10**6)
@@ -94,7 +94,7 @@ def interrupted(data, out, monkeypatch):
     with monkeypatch.context() as patched:
         Stops(patched, after=4)
         assert main(["evaluate", str(data), "--workers", "1", "--out", str(out)]) == 130
-    return sorted((out / FOLDER).iterdir())
+    return sorted((out / FOLDER / "evaluate").iterdir())
 
 
 def truncated(file, _):
@@ -149,6 +149,17 @@ def test_other_settings_are_another_run(data, tmp_path, monkeypatch, capsys):
     assert "done already" not in capsys.readouterr().err
 
 
+def test_what_others_keep_there_stays(data, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    records = interrupted(data, out, monkeypatch)
+    (out / FOLDER / "notes.txt").write_text("mine")
+    (out / FOLDER / "evaluate" / "notes.json").write_text("mine")
+    assert main(["diagnose", str(data), "--out", str(out)]) == 0
+    assert sorted((out / FOLDER / "evaluate").glob("*.json"))[: len(records)] == records
+    assert main(["evaluate", str(data), "--out", str(out)]) == 0
+    assert sorted(one.name for one in (out / FOLDER).rglob("*.*")) == ["notes.json", "notes.txt"]
+
+
 def test_without_a_folder_nothing_is_kept(data, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main(["evaluate", str(data)]) == 0
@@ -200,7 +211,7 @@ def test_after_a_kill_the_next_run_goes_on(ending, tmp_path):
     data = write_set(tmp_path / "hills", photos=60, size=(320, 240))
     words = ["skyline_viz", "evaluate", str(data), "--workers", "2", "--out"]
     process = started([*words, str(tmp_path / "out")], tmp_path)
-    folder = tmp_path / "out" / FOLDER
+    folder = tmp_path / "out" / FOLDER / "evaluate"
     until(lambda: len(list(folder.glob("*.json"))) >= 5, process)
     process.send_signal(ending)
     process.communicate(timeout=60)

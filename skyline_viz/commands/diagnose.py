@@ -96,7 +96,7 @@ class Diagnose:
         from skyline_viz.resume import Kept  # noqa: PLC0415
 
         workers = foresee(items, self.workers, RECORDING)
-        kept = Kept.within(self.out)
+        kept = Kept.within(self.out, "diagnose")
         detectors, failures = self._detectors(items, workers, kept)
         if self.photo:
             items = [item for item in items if item.name == self.photo]

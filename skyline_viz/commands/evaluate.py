@@ -75,7 +75,7 @@ class Evaluate:
         from skyline_viz.resume import Kept  # noqa: PLC0415
 
         workers = foresee(items, self.workers)
-        kept = Kept.within(self.out)
+        kept = Kept.within(self.out, "evaluate")
         if self.methods.given:
             return self._compare(dataset, items, workers, kept)
         from skyline_viz.evaluation import cross_validate, evaluate  # noqa: PLC0415

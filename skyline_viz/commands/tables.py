@@ -83,7 +83,7 @@ class Tables:
             output_folder(self.out, dataset)
             sets[dataset.name] = with_truth(dataset)
         workers = foresee([item for items in sets.values() for item in items], self.workers)
-        kept = Kept.within(self.out)
+        kept = Kept.within(self.out, "tables")
         measured = self._measure(sets, methods, workers, kept)
         failures = [failure for one in measured.values() for failure in one.failures]
         if not any(one.results for one in measured.values()):
