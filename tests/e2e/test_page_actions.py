@@ -115,7 +115,7 @@ def test_a_second_press_of_space_accepts_nothing_else(page):
 @pytest.mark.parametrize("elsewhere", [False, True])
 def test_an_edit_behind_an_accept_is_what_is_said(page, elsewhere):
     held = []
-    page.page.route("**/photos/1/operations", held.append)
+    page.page.route("**/photos/1/operations", lambda route: held.append(route), times=1)
     page.page.locator("#lines").focus()
     page.page.keyboard.press("Space")
     page.page.mouse.click(*page.at(100, 90))
@@ -123,8 +123,7 @@ def test_an_edit_behind_an_accept_is_what_is_said(page, elsewhere):
         page.page.keyboard.press("]")
         page.shows("hill-1.png")
     page.page.locator("#saving", has_text="2 not saved").wait_for()
-    assert len(held) == 1
-    page.page.unroute("**/photos/1/operations")
+    held[0].continue_()
     page.says("hill-0.png is no longer accepted: it was changed.")
     page.saved()
     assert statuses(page)[0] == "in progress"
@@ -165,7 +164,7 @@ def test_a_status_that_holds_already_is_said_and_undo_takes_back_the_edit_before
     page.says("nothing to undo")
     assert len(page.document()["anchors"]) == 1
     page.keys("w")
-    page.page.locator(".card").nth(2).click()
+    page.page.locator(".card", has_text="hill-2.png").click()
     page.keys("c")
     page.says("hill-2.png is to do already.")
     page.keys("u")
@@ -180,11 +179,12 @@ def test_in_the_sheet_undo_takes_back_what_is_still_on_its_way(page):
     page.keys("r")
     page.says("hill-0.png is needs review.")
     first.click()
-    page.page.route("**/photos/1/operations", lambda route: None, times=1)
+    held = []
+    page.page.route("**/photos/1/operations", lambda route: held.append(route), times=1)
     page.page.keyboard.press("d")
     page.page.keyboard.press("u")
     page.page.locator("#saving", has_text="2 not saved").wait_for()
-    page.page.unroute("**/photos/1/operations")
+    held[0].continue_()
     page.says("hill-0.png is needs review again.")
     page.saved()
     page.page.locator("#undo[title='Undo: hill-0.png needs review ( U )']").click()
@@ -195,10 +195,11 @@ def test_in_the_sheet_undo_takes_back_what_is_still_on_its_way(page):
 def test_a_blind_photo_without_a_line_is_accepted_nowhere(browser, folder):
     with served(folder, blind=1.0) as client:
         page = Page(browser, client)
+        page.page.locator("#lines").focus()
         page.keys("Space")
         page.says("hill-0.png has no line yet, so there is nothing to accept.")
         page.keys("w")
-        page.page.locator(".card").nth(1).click()
+        page.page.locator(".card", has_text="hill-1.png").click()
         page.keys("a")
         page.says("hill-1.png has no line yet, so there is nothing to accept.")
         assert statuses(page) == ["to do"] * 4
