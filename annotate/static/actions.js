@@ -14,6 +14,7 @@ export class Actions extends EventTarget {
    * The revision is that of the status itself, so that nothing that was done since is taken back for it.
    */
   #trail = [];
+  #latest = null; // what was said last, and the button beside the words takes back
 
   constructor(labelling, sheet) {
     super();
@@ -84,6 +85,7 @@ export class Actions extends EventTarget {
     const kept = await sent;
     if (kept?.status !== status) return this.#follow(this.#trail.filter((one) => one !== done));
     done.revision = kept.kept ?? kept.revision;
+    this.#latest = done;
     if (labelling.queue.of(photo.id).some(isChange)) return; // it does not stay so: what is said is said of that
     await this.#goOn(goOn && !inSheet, photo, `${photo.name} is ${status}.`, done);
   }
@@ -140,11 +142,15 @@ export class Actions extends EventTarget {
 
   /** Something has been kept: what the trail holds of its photo is still the last thing done there, or is dropped. */
   #keepUp(item, document) {
-    if (item.quiet || !this.#trail.some(({ id }) => id === item.photo)) return;
-    if (isChange(item) && item.what === "operations") {
-      if (item.operation.kind !== "status") this.#follow(this.#trail.filter(({ id }) => id !== item.photo));
-    } else { // a tag, or what came after it is taken back
-      for (const one of this.#trail) if (one.id === item.photo) one.revision = document.kept ?? document.revision;
+    const revision = document.kept ?? document.revision;
+    const here = this.#trail.filter(({ id }) => id === item.photo);
+    if (!isChange(item)) {
+      if (this.#latest?.id === item.photo) here.push(this.#latest);
+      for (const one of here) if (!item.quiet) one.revision = revision;
+    } else if (item.what !== "operations") {
+      for (const one of here) one.revision = revision; // what came after it is taken back
+    } else if (here.length && item.operation.kind !== "status") {
+      this.#follow(this.#trail.filter(({ id }) => id !== item.photo));
     }
   }
 

@@ -112,10 +112,20 @@ def test_a_second_press_of_space_accepts_nothing_else(page):
     assert statuses(page) == ["accepted", "to do", "to do", "to do"]
 
 
+def hold(page):
+    """Keep the next operation on the first photo on its way; the list gets its route."""
+    held = []
+
+    def keep(route):
+        held.append(route)
+
+    page.page.route("**/photos/1/operations", keep, times=1)
+    return held
+
+
 @pytest.mark.parametrize("elsewhere", [False, True])
 def test_an_edit_behind_an_accept_is_what_is_said(page, elsewhere):
-    held = []
-    page.page.route("**/photos/1/operations", lambda route: held.append(route), times=1)
+    held = hold(page)
     page.page.locator("#lines").focus()
     page.page.keyboard.press("Space")
     page.page.mouse.click(*page.at(100, 90))
@@ -135,6 +145,22 @@ def test_an_edit_behind_an_accept_is_what_is_said(page, elsewhere):
     page.page.locator("#undo[title='Undo: the anchor ( U )']").wait_for()
     page.keys("u")
     assert (statuses(page)[0], page.document()["anchors"]) == ("accepted", [])
+
+
+def test_a_tag_behind_an_accept_leaves_its_undo_in_place(page):
+    page.page.locator("#lines").focus()
+    page.page.keyboard.press("t")
+    held = hold(page)
+    page.page.evaluate("document.getElementById('accept').click()")
+    page.page.get_by_label("needs terrain data").check()
+    page.page.locator("#saving", has_text="2 not saved").wait_for()
+    held[0].continue_()
+    page.says("hill-0.png is accepted.")
+    page.shows("hill-1.png")
+    page.keys("Escape", "u")
+    page.says("hill-0.png is to do again.")
+    assert page.page.locator("#lost").is_hidden()
+    assert statuses(page)[0] == "to do"
 
 
 def test_an_acceptance_is_not_taken_back_from_the_next_photo_once_something_came_after_it(page):
@@ -179,8 +205,7 @@ def test_in_the_sheet_undo_takes_back_what_is_still_on_its_way(page):
     page.keys("r")
     page.says("hill-0.png is needs review.")
     first.click()
-    held = []
-    page.page.route("**/photos/1/operations", lambda route: held.append(route), times=1)
+    held = hold(page)
     page.page.keyboard.press("d")
     page.page.keyboard.press("u")
     page.page.locator("#saving", has_text="2 not saved").wait_for()

@@ -124,7 +124,7 @@ def test_what_waits_is_drawn_and_the_page_says_that_the_line_follows(page):
     x, y = page.place(60, 20, SIZE)
     page.page.mouse.click(x, y)
     page.page.mouse.move(x + 300, y)
-    said = "The server does not answer. 1 edit waits and is sent as soon as it can be; the line follows"
+    said = "does not answer. 1 edit waits and is sent as soon as it can be; the line follows then."
     page.page.locator("#trouble", has_text=said).wait_for()
     page.page.keyboard.press("]")
     page.says("The server does not answer.")
