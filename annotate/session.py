@@ -76,6 +76,8 @@ class Session:
             if kept is not None:
                 return kept
             self._confirm()
+            if isinstance(operation, SetStatus):
+                self._require_sense(operation)
             if isinstance(operation, SetTag | SetStatus | Open):
                 return self._append(asked, None)
             return self._edit(operation.on(self.wire.edits), asked)
@@ -115,6 +117,13 @@ class Session:
             if after == state.edits:  # a status: the line stays, whoever has solved it
                 return self._append(asked, self._kept_line())
             return self._edit(after, asked)
+
+    def _require_sense(self, operation: SetStatus) -> None:
+        """Refuse a status that says nothing new, which undo would not find, or nothing at all."""
+        if operation.status == self.state.status:
+            raise EditError(f"{self.photo.name} is {operation.status} already.")
+        if operation.status == "accepted" and self.wire.empty:
+            raise EditError(f"{self.photo.name} has no line yet, so there is nothing to accept.")
 
     def _edit(self, edits: Edits, asked: Request) -> int:
         before = self.wire.edits

@@ -2,9 +2,9 @@
 
 A command that writes into a folder keeps what each photo came to below ``OUT/unfinished`` as soon
 as it is known, a small file a photo, whole or not at all. Its name is a digest of all that it was
-made from: photo, truth, what detects, settings, and the code of this program. The next run of the same
-command finds what fits, and does the rest; what is damaged is done again. When everything has been
-written, the folder goes.
+made from: photo, truth, what detects, settings, and the code of this program. The next run of the
+same command finds what fits, and does the rest; what is damaged is done again. When everything has
+been written, the files go.
 
 The digests of photos and methods are those by which a `gallery` knows what has changed.
 """

@@ -144,6 +144,52 @@ def test_undoing_an_edit_of_an_accepted_photo_makes_it_accepted_again(folder):
         assert exported.status_code == 200
 
 
+def test_a_status_that_says_nothing_new_is_refused_and_undo_never_finds_it(client):
+    review = {"kind": "status", "status": "needs review"}
+    assert do(client, {"kind": "status", "status": "to do"}).status_code == 422
+    body = asked(operation=review)
+    first = post(client, "operations", body).json()
+    kept = do(client, ANCHOR).json()  # still needs review
+    said = do(client, review)
+    assert (said.status_code, said.json()["detail"]) == (422, "hill-0.png is needs review already.")
+    assert document(client)["revision"] == kept["revision"]
+    again = post(client, "operations", body)  # known: no new request
+    assert (again.status_code, again.json()["kept"]) == (200, first["kept"])
+    assert (document(client)["status"], document(client)["undo_what"]) == (
+        "needs review",
+        "the anchor",
+    )
+
+
+def test_a_blind_photo_without_a_line_is_not_accepted(folder):
+    with served(folder, blind=1.0) as client:
+        said = do(client, ACCEPT)
+        assert said.status_code == 422
+        assert said.json()["detail"] == (
+            "hill-0.png has no line yet, so there is nothing to accept."
+        )
+        assert (document(client)["status"], document(client)["revision"]) == ("to do", 0)
+        for status in ("rejected", "needs review"):
+            assert do(client, {"kind": "status", "status": status}).status_code == 200
+        do(client, ANCHOR)
+        assert do(client, ACCEPT).json()["status"] == "accepted"
+        for _ in range(2):
+            undo(client)
+        assert document(client)["rows"] is None
+        assert do(client, ACCEPT).status_code == 422
+
+
+def test_a_blind_photo_that_was_accepted_without_a_line_still_opens(folder):
+    with served(folder, blind=1.0) as client:
+        do(client, {"kind": "tag", "tag": "fog", "on": True})
+    store = Store(folder)
+    store.append(1, -1, "status", {"status": "accepted"})
+    store.close()
+    with served(folder, blind=1.0) as client:
+        assert (document(client)["status"], document(client)["rows"]) == ("accepted", None)
+        assert undo(client)["status"] == "to do"
+
+
 def test_nothing_to_undo_is_no_matter_of_revisions(client):
     for what in ("undo", "redo"):
         said = post(client, what, asked())

@@ -7,9 +7,9 @@ const OPENING = 300_000; // milliseconds that the first look at a large photo ma
 
 /**
  * Holds the list of photos and the current document, which follows what the queue gets acknowledged.
- * Events: `list`, `document` (detail.fresh: another photo; detail.before, detail.item: what was
- * there before an operation was acknowledged), `margins`, `loading`, `did` (an operation is sent),
- * `said` (detail: {text, bad, undo}: what to say, and what takes back what was said).
+ * Events: `list`, `document` (detail.fresh: another photo), `status` (detail: {before, now, item}: the status
+ * that a photo had, seen or not, and its document since an operation was acknowledged), `margins`, `loading`,
+ * `did` (an operation is sent), `said` (detail: {text, bad, undo}: what to say, and what takes back what was said).
  */
 export class Labelling extends EventTarget {
   photos = [];
@@ -24,6 +24,7 @@ export class Labelling extends EventTarget {
   loading = "";
   queue = new Queue();
   #acknowledged = null; // rows of the document while it shows more than that
+  #statuses = new Map(); // by id: the status that was acknowledged last
   #ahead = new Map();
   #opening = 0;
 
@@ -128,19 +129,27 @@ export class Labelling extends EventTarget {
 
   #took({ item, document: found }) {
     const listed = this.photos.find((photo) => photo.id === found.id);
+    const shown = found.id === this.document?.id;
+    const status = shown ? this.document.status : this.#statuses.get(found.id) ?? listed?.status;
+    this.#statuses.set(found.id, found.status);
     if (listed && (listed.status !== found.status || String(listed.tags) !== String(found.tags))) {
       Object.assign(listed, { status: found.status, tags: found.tags });
       this.#tell("list");
       this.load().catch(() => {}); // progress and times; they come with the next one, too
     }
-    if (found.id !== this.document?.id) return;
+    if (shown) this.#show(found);
+    if (status !== found.status) this.#tell("status", { before: status, now: found, item });
+  }
+
+  /** Show the photo that is shown as it is now. */
+  #show(found) {
     const before = this.document;
     if (this.#acknowledged && this.queue.of(found.id).length) { // what waits is shown already
       this.#acknowledged = found.rows;
       found.rows = before.rows;
     } else this.#acknowledged = null;
     this.document = found;
-    this.#tell("document", { before, item });
+    this.#tell("document", {});
     if (found.revision !== before.revision) this.#measure();
   }
 

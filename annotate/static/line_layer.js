@@ -1,5 +1,7 @@
 /** Draws what belongs to the line: the line itself as one path, previews, anchors, the brush. */
 
+import { paintWaiting, sketched } from "./waiting.js";
+
 const LINE = "#ff2d95";
 const PREVIEW = "#ffd400";
 const HALO = "rgb(20 20 20 / 70%)";
@@ -14,6 +16,7 @@ export class LineLayer {
   mark = null; // column and row of the mark
   finger = null; // where a finger touches, on the screen
   dragged = null; // column of the anchor that is dragged
+  #waiting = sketched([]);
   #canvas;
   #below;
   #view;
@@ -41,6 +44,12 @@ export class LineLayer {
     this.#document = document;
     this.#line = null;
     this.#brushed = brushed(document);
+    this.draw();
+  }
+
+  /** Show what waits for the server on this photo, too. */
+  showWaiting(items) {
+    this.#waiting = sketched(items);
     this.draw();
   }
 
@@ -90,6 +99,7 @@ export class LineLayer {
     for (const [column, row] of this.#document.anchors) {
       if (column !== this.dragged) this.#disc(pen, column, row, ANCHOR, "#fff");
     }
+    paintWaiting(pen, this.#waiting, this.#view, (column) => this.#document.anchors.find(([one]) => one === column)?.[1]);
     if (this.finger) this.#magnify(pen, ratio);
   }
 

@@ -163,6 +163,9 @@ labelling.addEventListener("document", ({ detail }) => {
     labelling.say(`A diagnosis doubts the truth around column ${shown.doubtful}.`);
   }
 });
+for (const [source, name] of [[labelling, "document"], [queue, "change"]]) {
+  source.addEventListener(name, () => labelling.document && lines.showWaiting(queue.of(labelling.document.id)));
+}
 addEventListener("online", () => queue.wake());
 addEventListener("beforeunload", (event) => queue.waiting && event.preventDefault());
 addEventListener("resize", resize);

@@ -1,5 +1,7 @@
 /** What the page says: messages, whether everything is saved, and what could not be kept. */
 
+import { changesLine } from "./waiting.js";
+
 const SLOW = 400; // milliseconds: what is saved within a blink is not worth a word
 
 /** A number of things. */
@@ -7,12 +9,12 @@ export function counted(number, thing) {
   return `${number} ${thing}${number === 1 ? "" : "s"}`;
 }
 
-/** Why edits wait, and what will become of them. */
-export function trouble(reason, waiting) {
+/** Why edits wait, and what will become of them, and of the line where they change it. */
+export function trouble(reason, waiting, line = false) {
   if (!reason) return "";
   if (!waiting) return reason;
   const sent = waiting === 1 ? "waits and is sent as soon as it can be" : "wait and are sent as soon as they can be";
-  return `${reason} ${counted(waiting, "edit")} ${sent}.`;
+  return `${reason} ${counted(waiting, "edit")} ${sent}${line ? "; the line follows then" : ""}.`;
 }
 
 /** The message line and its Undo, the word *saved*, and the list of what is not kept. */
@@ -52,7 +54,8 @@ export class Messages {
   }
 
   #show() {
-    const { waiting, reason, lost } = this.#labelling.queue;
+    const { document: shown, queue } = this.#labelling;
+    const { waiting, reason, lost } = queue;
     const { saving, trouble: line } = this.#parts;
     saving.dataset.state = waiting ? "unsaved" : "saved";
     if (!waiting) {
@@ -66,7 +69,8 @@ export class Messages {
     }
     if (!waiting) saving.textContent = "saved";
     else if (this.#slow || reason) saving.textContent = `${waiting} not saved`;
-    const words = trouble(waiting ? reason : "", waiting);
+    const items = shown ? queue.of(shown.id) : [];
+    const words = trouble(waiting ? reason : "", waiting, changesLine(items));
     if (line.textContent !== words) line.textContent = words;
     line.hidden = !words;
     this.#list(lost);

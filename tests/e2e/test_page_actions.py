@@ -112,6 +112,126 @@ def test_a_second_press_of_space_accepts_nothing_else(page):
     assert statuses(page) == ["accepted", "to do", "to do", "to do"]
 
 
+def hold(page):
+    """Keep the next operation on the first photo on its way; the list gets its route."""
+    held = []
+
+    def keep(route):
+        held.append(route)
+
+    page.page.route("**/photos/1/operations", keep, times=1)
+    return held
+
+
+@pytest.mark.parametrize("elsewhere", [False, True])
+def test_an_edit_behind_an_accept_is_what_is_said(page, elsewhere):
+    held = hold(page)
+    page.page.locator("#lines").focus()
+    page.page.keyboard.press("Space")
+    page.page.mouse.click(*page.at(100, 90))
+    if elsewhere:
+        page.page.keyboard.press("]")
+        page.shows("hill-1.png")
+    page.page.locator("#saving", has_text="2 not saved").wait_for()
+    held[0].continue_()
+    page.says("hill-0.png is no longer accepted: it was changed.")
+    page.saved()
+    assert statuses(page)[0] == "in progress"
+    if elsewhere:
+        assert page.page.locator("#undo").is_disabled()
+        page.keys("[")
+    page.shows("hill-0.png")
+    page.saved()
+    page.page.locator("#undo[title='Undo: the anchor ( U )']").wait_for()
+    page.keys("u")
+    assert (statuses(page)[0], page.document()["anchors"]) == ("accepted", [])
+
+
+def test_a_tag_behind_an_accept_leaves_its_undo_in_place(page):
+    page.page.locator("#lines").focus()
+    page.page.keyboard.press("t")
+    held = hold(page)
+    page.page.evaluate("document.getElementById('accept').click()")
+    page.page.get_by_label("needs terrain data").check()
+    page.page.locator("#saving", has_text="2 not saved").wait_for()
+    held[0].continue_()
+    page.says("hill-0.png is accepted.")
+    page.shows("hill-1.png")
+    page.keys("Escape", "u")
+    page.says("hill-0.png is to do again.")
+    assert page.page.locator("#lost").is_hidden()
+    assert statuses(page)[0] == "to do"
+
+
+def test_an_acceptance_is_not_taken_back_from_the_next_photo_once_something_came_after_it(page):
+    page.keys("Space")
+    page.shows("hill-1.png")
+    page.says("hill-0.png is accepted.")
+    other = {"kind": "anchor", "column": 300, "row": 90}
+    page.client.post("/api/photos/1/operations", json=asked(operation=other))
+    page.keys("u")
+    page.page.locator("#lost", has_text="1 not kept").wait_for()
+    assert [column for column, _ in page.document()["anchors"]] == [300]
+    page.errors.clear()
+
+
+def test_a_status_that_holds_already_is_said_and_undo_takes_back_the_edit_before_it(page):
+    page.keys("r")
+    page.shows("hill-1.png")
+    page.keys("[")
+    page.shows("hill-0.png")
+    page.saved()
+    page.click(100, 90)
+    page.keys("r")
+    page.says("hill-0.png is needs review already.")
+    page.shows("hill-1.png")
+    assert page.page.locator("#said-undo").is_hidden()
+    page.keys("u")
+    page.says("nothing to undo")
+    assert len(page.document()["anchors"]) == 1
+    page.keys("w")
+    page.page.locator(".card", has_text="hill-2.png").click()
+    page.keys("c")
+    page.says("hill-2.png is to do already.")
+    page.keys("u")
+    page.says("Nothing was done on this page")
+    assert page.page.locator("#lost").is_hidden()
+
+
+def test_in_the_sheet_undo_takes_back_what_is_still_on_its_way(page):
+    page.keys("w")
+    first = page.page.locator(".card").first
+    first.click()
+    page.keys("r")
+    page.says("hill-0.png is needs review.")
+    first.click()
+    held = hold(page)
+    page.page.keyboard.press("d")
+    page.page.keyboard.press("u")
+    page.page.locator("#saving", has_text="2 not saved").wait_for()
+    held[0].continue_()
+    page.says("hill-0.png is needs review again.")
+    page.saved()
+    page.page.locator("#undo[title='Undo: hill-0.png needs review ( U )']").click()
+    page.says("hill-0.png is to do again.")
+    assert statuses(page)[0] == "to do"
+
+
+def test_a_blind_photo_without_a_line_is_accepted_nowhere(browser, folder):
+    with served(folder, blind=1.0) as client:
+        page = Page(browser, client)
+        page.page.locator("#lines").focus()
+        page.keys("Space")
+        page.says("hill-0.png has no line yet, so there is nothing to accept.")
+        page.keys("w")
+        page.page.locator(".card", has_text="hill-1.png").click()
+        page.keys("a")
+        page.says("hill-1.png has no line yet, so there is nothing to accept.")
+        assert statuses(page) == ["to do"] * 4
+        page.keys("d", "Escape")
+        page.close()
+
+
 def test_everything_acts_on_the_card_of_the_sheet(page):
     page.keys("w")
     cards = page.page.locator(".card")

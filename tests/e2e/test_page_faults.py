@@ -106,6 +106,41 @@ def test_what_waits_outlives_a_reload(page):
     assert "token" not in page.page.url
 
 
+def around(page, column, row):
+    """What is drawn over the photo around a pixel."""
+    x, y = page.at(column, row)
+    box = page.page.locator("#lines").bounding_box()
+    return page.page.evaluate(
+        """([x, y]) => Array.from(document.getElementById("lines").getContext("2d").getImageData(
+            (x - 20) * devicePixelRatio, (y - 20) * devicePixelRatio, 40, 40).data)""",
+        [x - box["x"], y - box["y"]],
+    )
+
+
+def test_what_waits_is_drawn_and_the_page_says_that_the_line_follows(page):
+    before = around(page, 60, 20)
+    assert not any(before)  # far above the line
+    page.page.route("**/api/**", lambda route: route.abort())
+    x, y = page.place(60, 20, SIZE)
+    page.page.mouse.click(x, y)
+    page.page.mouse.move(x + 300, y)
+    said = "does not answer. 1 edit waits and is sent as soon as it can be; the line follows then."
+    page.page.locator("#trouble", has_text=said).wait_for()
+    page.page.keyboard.press("]")
+    page.says("The server does not answer.")
+    page.page.unroute("**/api/**")
+    page.page.route("**/operations", lambda route: route.abort())
+    waiting = around(page, 60, 20)
+    centre = 4 * (20 * 40 + 20) + 3
+    assert any(waiting)
+    assert waiting[centre] == 0  # hollow
+    page.page.unroute("**/operations")
+    page.saved()
+    page.page.mouse.move(x + 300, y + 1)
+    assert anchors(page) == [60]
+    assert around(page, 60, 20)[centre] == 255
+
+
 def test_leaving_while_something_waits_is_asked_about(page):
     page.page.route("**/operations", lambda route: route.abort())
     page.page.mouse.click(*page.at(60, 90))
