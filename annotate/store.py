@@ -17,7 +17,7 @@ from time import time
 from typing import Any
 
 from annotate import standings
-from annotate.database import NAME, Place, StoreError, connect, sentences, shown
+from annotate.database import NAME, Place, StoreError, connect, journal_fault, sentences, shown
 from annotate.identity import Photo, Stamp, pixel_digest, scan
 from annotate.kept_detectors import pack, unpack
 from annotate.kept_states import KeptStates, Request, StaleError, add, known, last_line, revision
@@ -80,6 +80,8 @@ class Store:
         self.folder = folder
         self._lock = threading.RLock()
         self._place = None if reading or of else Place(folder / NAME)
+        self.fault = journal_fault(folder / NAME) if reading and not of else ""
+        """A sentence that says what is not read because the journal is damaged, if so."""
         if of:
             with of._reading() as database:
                 self._connection = snapshot(folder, database)
@@ -87,6 +89,7 @@ class Store:
             self._connection = snapshot(folder) if reading else connect(folder)
         self._states = KeptStates()
         self._present = Present()
+        self._unreadable: dict[int, str] = {}
         self.problems: list[str] = []
         """A sentence for each file that `find` had to leave out."""
         self.unreadable: list[str] = []
@@ -275,7 +278,7 @@ class Store:
         Raises:
             LogError: Its log cannot be read.
         """
-        with self._reading() as database, reading_label(database, label):
+        with self._whole(label) as database:
             state = self._states.read(database, label)
             return state if state.revision else replace(state, line=last_line(database, label))
 
@@ -302,6 +305,8 @@ class Store:
         for photo in self.photos():
             label, margin, blind = begun.get(photo.id, (None, None, False))
             one = stand.get(label or 0, Standing())
+            if label in self._unreadable:  # its standing may look well all the same
+                one = Standing("needs review", problem=self._unreadable[label])
             cards[photo.id] = Card(photo, label, margin=margin, blind=bool(blind), **vars(one))
         return cards
 
@@ -336,7 +341,7 @@ class Store:
         for label in labels:
             try:
                 state = self.state(label)
-                with self._reading() as database, reading_label(database, label):
+                with self._whole(label) as database:
                     found = whole_label(database, label, state)
             except LogError as error:
                 self.unreadable.append(str(error))
@@ -359,6 +364,17 @@ class Store:
     def _reading(self) -> Iterator[sqlite3.Connection]:
         with self._lock, sentences(self.folder / NAME):
             yield self._connection
+
+    @contextmanager
+    def _whole(self, label: int) -> Iterator[sqlite3.Connection]:
+        """Read a label, and remember for `cards` when it cannot be read."""
+        try:
+            with self._reading() as database, reading_label(database, label):
+                yield database
+        except LogError as error:
+            self._unreadable[label] = str(error)
+            raise
+        self._unreadable.pop(label, None)
 
     @contextmanager
     def _writing(self) -> Iterator[sqlite3.Connection]:
