@@ -15,6 +15,7 @@ import struct
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +24,7 @@ _MAGIC = {0x377F0682: "<u4", 0x377F0683: ">u4"}
 _HEADER, _FRAME = 32, 24  # bytes
 _ENDS = ("", "-wal", "-journal")
 _TRIES = 3  # of reading a journal that somebody may be writing
+_Words: TypeAlias = npt.NDArray[np.uint32]
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,10 +78,13 @@ def fault(path: Path) -> str:
     return said
 
 
-def replay(path: Path, copy: Path) -> None:
+def replay(path: Path, copy: Path) -> bool:
     """Copy a file of labels and its journal; pages behind damage in the journal count as well.
 
     They are written into the copy then, which may hold older pages beside them, and has no journal.
+
+    Returns:
+        Whether the journal is damaged, so that changes may be missing.
 
     Raises:
         OSError: They cannot be read, or the copy cannot be written.
@@ -91,15 +96,16 @@ def replay(path: Path, copy: Path) -> None:
             shutil.copyfile(file, copy.with_name(copy.name + end))
     frames = _frames(_beside(path, "-wal")) if damaged else None
     if frames is None:
-        return
+        return bool(damaged)
     size = frames.pages.shape[1]
     ends = np.flatnonzero(frames.sound & (frames.commits > 0))
-    with copy.open("r+b") as file:
+    with copy.open("r+b") as target:
         for at in np.flatnonzero(frames.sound[: ends[-1] + 1] if len(ends) else []):
-            file.seek((int(frames.numbers[at]) - 1) * size)
-            file.write(frames.pages[at].tobytes())
+            target.seek((int(frames.numbers[at]) - 1) * size)
+            target.write(frames.pages[at].tobytes())
         if len(ends):
-            file.truncate(int(frames.commits[ends[-1]]) * size)
+            target.truncate(int(frames.commits[ends[-1]]) * size)
+    return True
 
 
 def _fault(path: Path) -> str:
@@ -134,8 +140,9 @@ def _indexed(content: bytes) -> tuple[int, int, bytes] | None:
     if len(content) < 100 or content[:48] != content[48:96] or not content[12]:
         return None
     order = "<" if sys.byteorder == "little" else ">"
-    frames, done = struct.unpack_from(f"{order}I", content, 16), struct.unpack_from(
-        f"{order}I", content, 96
+    frames, done = (
+        struct.unpack_from(f"{order}I", content, 16),
+        struct.unpack_from(f"{order}I", content, 96),
     )
     return frames[0], done[0], content[32:40]
 
@@ -171,7 +178,7 @@ def _frames(content: bytes) -> _Frames | None:
     )
 
 
-def _summed(words: npt.NDArray[np.uint32], before: npt.NDArray[np.uint32]) -> npt.NDArray[np.uint32]:
+def _summed(words: _Words, before: _Words) -> _Words:
     """Checksums ``(N, 2)`` of words ``(N, K)``, begun with those ``(N, 2)`` of what came before."""
     one, other = before[:, 0].copy(), before[:, 1].copy()
     for at in range(0, words.shape[1], 2):

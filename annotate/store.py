@@ -19,7 +19,7 @@ from typing import Any
 from annotate import standings
 from annotate.database import NAME, Place, StoreError, connect, journal_fault, sentences, shown
 from annotate.identity import Photo, Stamp, pixel_digest, scan
-from annotate.kept_detectors import pack, unpack
+from annotate.kept_detectors import keep_detector, unpack
 from annotate.kept_states import KeptStates, Request, StaleError, add, known, last_line, revision
 from annotate.label_table import Log, begin, insert, labels_of, whole_label
 from annotate.labels import Label
@@ -188,7 +188,7 @@ class Store:
                 raise StaleError(
                     "the photo has been worked on, so its proposal stays as it is.", now
                 )
-            made_by = None if detector is None else _keep_detector(database, detector)
+            made_by = None if detector is None else keep_detector(database, detector)
             database.execute(
                 "UPDATE labels SET proposal = ?, detector = ?, margin = ? WHERE id = ?",
                 (line.packed(), made_by, margin, label),
@@ -393,14 +393,3 @@ class Store:
     def _confirm_place(self) -> None:
         if self._place:
             self._place.confirm()
-
-
-def _keep_detector(database: sqlite3.Connection, detector: Method) -> int:
-    """Id of a detector, which is added where it is new."""
-    kept = pack(detector)
-    database.execute(
-        "INSERT OR IGNORE INTO detectors (digest, about, config, bank) VALUES (?, ?, ?, ?)",
-        (kept.digest, kept.about, kept.config, kept.bank),
-    )
-    row = database.execute("SELECT id FROM detectors WHERE digest = ?", (kept.digest,)).fetchone()
-    return int(row[0])

@@ -11,7 +11,15 @@ import tyro
 
 from annotate.commands.options import PROGRAM, PhotoFolder, opened
 from annotate.labels import STATUSES
-from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, tell, tell_drawn
+from skyline_viz.commands.messages import (
+    GOOD,
+    SOME_FAILED,
+    UsageError,
+    counted,
+    say,
+    tell,
+    tell_drawn,
+)
 from skyline_viz.commands.settings import Switch, check_picture
 from skyline_viz.commands.sizes import MaxMegapixels
 from skyline_viz.memory import MAX_MEGAPIXELS
