@@ -360,7 +360,7 @@ def version_of(labels: sqlite3.Connection, path: Path) -> int:
         prepare(labels)
         version = int(labels.execute("PRAGMA user_version").fetchone()[0])
         whose = int(labels.execute("PRAGMA application_id").fetchone()[0])
-        if not whose and not version and not labels.execute("PRAGMA schema_version").fetchone()[0]:
+        if not (whose or version or labels.execute("SELECT 1 FROM sqlite_schema").fetchone()):
             raise StoreError(
                 f"{path} is an empty database, or its journal {path.name}-wal is missing: put that "
                 "back beside it, or remove the file to begin anew."
