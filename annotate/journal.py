@@ -94,7 +94,8 @@ def replay(path: Path, copy: Path) -> bool:
         file = path.with_name(path.name + end)
         if file.exists() and not (damaged and end == "-wal"):
             shutil.copyfile(file, copy.with_name(copy.name + end))
-    frames = _frames(_beside(path, "-wal")) if damaged else None
+    content = _beside(path, "-wal") if damaged else b""
+    frames = _frames(content) or _headless(content)
     if frames is None:
         return bool(damaged)
     size = frames.pages.shape[1]
@@ -159,7 +160,29 @@ def _frames(content: bytes) -> _Frames | None:
     zero = np.zeros((1, 2), np.uint32)
     if not (_summed(words[None], zero) == np.frombuffer(content, ">u4", 2, 24)).all():
         return None
-    count = (len(content) - _HEADER) // (_FRAME + size)
+    return _checked(content, order, size)
+
+
+def _headless(content: bytes) -> _Frames | None:
+    """Frames of a journal whose beginning is damaged, by their own salts; None where none is sound.
+
+    The first one is lost, whose checksum depends on the beginning.
+    """
+    best = None
+    for order in _MAGIC.values():
+        for size in (2**power for power in range(9, 17)):
+            salts = content[_HEADER + _FRAME + size :][8:16]  # of the second frame
+            if len(salts) < 8:
+                continue
+            frames = _checked(content[:16] + salts + content[24:], order, size)
+            if frames.sound.any() and (best is None or frames.sound.sum() > best.sound.sum()):
+                best = frames
+    return best
+
+
+def _checked(content: bytes, order: str, size: int) -> _Frames:
+    """Frames with pages of a size, checked."""
+    count = max(len(content) - _HEADER, 0) // (_FRAME + size)
     whole = np.frombuffer(content, np.uint8, count * (_FRAME + size), _HEADER)
     whole = whole.reshape(count, _FRAME + size)
     heads = np.ascontiguousarray(whole[:, :_FRAME]).view(">u4")

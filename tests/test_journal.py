@@ -92,8 +92,9 @@ def test_a_damaged_journal_is_said_by_every_command_and_kept(damage, killed, tmp
     Store(killed).close()
 
 
-def test_what_lies_behind_a_damaged_frame_is_saved(killed):
-    flip(killed / WAL, 1 / 3)
+@pytest.mark.parametrize("damage", ["a third", "salts", "the beginning"])
+def test_what_lies_behind_the_damage_is_saved(damage, killed):
+    DAMAGES[damage](killed / WAL)
     assert accepted(killed) < 4
     assert run("repair", killed) == 1
     assert accepted(killed) == 4
