@@ -8,12 +8,14 @@ with a plain journal.
 from __future__ import annotations
 
 import os
+import re
 import sqlite3
 import stat
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 
+from annotate import journal
 from skyline_viz.files import flush, replacing
 from skyline_viz.names import shortened
 
@@ -141,6 +143,8 @@ def connect(folder: Path) -> sqlite3.Connection:
             connection.execute(f"PRAGMA journal_mode = {mode}")
             connection.execute("PRAGMA synchronous = FULL")
             migrate(connection, version)
+            if version < len(MIGRATIONS):  # so that the file can be told without its journal
+                connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
             flush(folder)  # SQLite waits for the content of a new file, but not for its name
         except BaseException:
             connection.close()
@@ -192,8 +196,11 @@ class Place:
         )
 
 
-def backup(folder: Path, path: Path) -> None:
+def backup(folder: Path, path: Path) -> str:
     """Copy the labels of a folder into a file, also while they are being changed.
+
+    Returns:
+        What is missing because the journal is damaged, in a sentence; empty where nothing is.
 
     Raises:
         StoreError: There are none, they are damaged, or the copy cannot be written.
@@ -203,11 +210,13 @@ def backup(folder: Path, path: Path) -> None:
     source = folder / NAME
     if not holds_something(source):
         raise StoreError(f"{folder} has no labels to back up.")
+    said = journal_fault(source)
     with closing(sqlite3.connect(":memory:")) as labels:
         read_into(labels, source)
         version_of(labels, source)
         with replacing(path) as temporary, sentences(path):
             write_into(temporary, labels)
+    return said
 
 
 def write_into(path: Path, labels: sqlite3.Connection) -> None:
@@ -234,17 +243,43 @@ def sentences(path: Path) -> Iterator[None]:
     except sqlite3.IntegrityError:
         raise  # a fault of this program, not of the file
     except sqlite3.DatabaseError as error:
-        raise DamagedError(damaged(path, str(error))) from error
+        raise DamagedError(damaged(path, _where(str(error)))) from error
     except UnicodeError as error:
-        raise DamagedError(damaged(path, "it holds text that is none")) from error
+        raise DamagedError(damaged(path, "text")) from error
 
 
-def damaged(path: Path, reason: str) -> str:
+def damaged(path: Path, where: str = "") -> str:
     """The sentence about a file that is damaged, and what can be done."""
+    place = f" ({where})" if where else ""
     return (
-        f"{path} is damaged: {reason}; restore it from a backup, or save what can be read with "
-        f"skyline-annotate repair {path.parent}."
+        f"{path} is damaged{place}; skyline-annotate repair {path.parent} saves what can be read, "
+        "or restore it from a backup."
     )
+
+
+def journal_fault(path: Path) -> str:
+    """What is not read of labels because their journal is damaged, in a sentence; or empty.
+
+    Raises:
+        StoreError: The journal cannot be read.
+    """
+    try:
+        said = journal.fault(path)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise StoreError(f"the journal of {path} cannot be read: {reason}.") from error
+    if not said:
+        return ""
+    return (
+        f"the journal {path}-wal {said}; skyline-annotate repair {path.parent} saves what can be "
+        "read."
+    )
+
+
+def _where(said: str) -> str:
+    """Where a file is damaged, from what SQLite says of it."""
+    page = re.search(r"\bpage (\d+)", said, re.IGNORECASE)
+    return f"page {page[1]}" if page else "a table" if "row" in said or "index" in said else ""
 
 
 def holds_something(path: Path) -> bool:
@@ -285,9 +320,11 @@ def examine(path: Path) -> int:
     """Version of the schema of a file, read without changing it.
 
     Raises:
-        StoreError: It is damaged, of a newer version, or somebody else's.
+        StoreError: It or its journal is damaged, of a newer version, or somebody else's.
     """
     require_database(path)
+    if said := journal_fault(path):
+        raise DamagedError(said)
     address = f"{path.absolute().as_uri()}?mode=ro"
     with sentences(path), closing(sqlite3.connect(address, uri=True, timeout=10)) as labels:
         return version_of(labels, path)
@@ -306,7 +343,7 @@ def require_database(path: Path) -> None:
         reason = (error.strerror or str(error)).lower()
         raise StoreError(f"{path} cannot be read: {reason}.") from error
     if begins != _BEGINS:
-        raise DamagedError(damaged(path, "it is no database"))
+        raise DamagedError(damaged(path, "its beginning"))
 
 
 def version_of(labels: sqlite3.Connection, path: Path) -> int:
@@ -323,6 +360,11 @@ def version_of(labels: sqlite3.Connection, path: Path) -> int:
         prepare(labels)
         version = int(labels.execute("PRAGMA user_version").fetchone()[0])
         whose = int(labels.execute("PRAGMA application_id").fetchone()[0])
+        if not (whose or version or labels.execute("SELECT 1 FROM sqlite_schema").fetchone()):
+            raise StoreError(
+                f"{path} is an empty database, or its journal {path.name}-wal is missing: put that "
+                "back beside it, or remove the file to begin anew."
+            )
         if whose != APPLICATION:
             raise StoreError(f"{path} is a database, but not one of skyline-annotate.")
         if version > len(MIGRATIONS):
@@ -332,7 +374,7 @@ def version_of(labels: sqlite3.Connection, path: Path) -> int:
             )
         found = str(labels.execute("PRAGMA integrity_check(1)").fetchone()[0])
         if found != "ok":
-            raise DamagedError(damaged(path, shown(found)))
+            raise DamagedError(damaged(path, _where(found)))
     return version
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import sqlite3
 from dataclasses import asdict, dataclass
 
 from skyline_viz import __version__
@@ -74,3 +75,14 @@ def unpack(config: str, bank: bytes) -> Method:
         if "method" in settings:
             return load_method(file)
         return Detector(FilterBank.load(file), DetectorConfig(**settings))
+
+
+def keep_detector(database: sqlite3.Connection, detector: Method) -> int:
+    """Id of a detector, which is added where it is new."""
+    kept = pack(detector)
+    database.execute(
+        "INSERT OR IGNORE INTO detectors (digest, about, config, bank) VALUES (?, ?, ?, ?)",
+        (kept.digest, kept.about, kept.config, kept.bank),
+    )
+    row = database.execute("SELECT id FROM detectors WHERE digest = ?", (kept.digest,)).fetchone()
+    return int(row[0])

@@ -1,16 +1,18 @@
 """Labels of a damaged or poisoned folder: what can be read is saved, what cannot is set aside.
 
 Nothing is deleted. A label that cannot be read keeps its rows, and its photo is free to be labelled
-again. A damaged file keeps its bytes under another name, and what SQLite can still read of it goes
-into a new one.
+again. A damaged file and its journal keep their bytes under another name, and what can still be
+read of them goes into a new one. Operations whose label is lost go into a JSON file beside it.
 """
 
 from __future__ import annotations
 
+import json
 import shutil
 import sqlite3
 from collections.abc import Mapping
 from contextlib import closing
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 
@@ -28,18 +30,27 @@ from annotate.kept_detectors import unpack
 from annotate.kept_states import KeptStates
 from annotate.label_table import whole_label
 from annotate.labels import check_annotator
-from annotate.lines import Line
+from annotate.lines import Line, LineError
 from annotate.log import LogError
 from annotate.readable import named, reading_label
 from annotate.salvage import salvaged
+from annotate.store import Store
 from skyline_viz.files import flush, replacing
 
 
-def repair(folder: Path) -> list[str]:
-    """Repair the labels of a folder, which nobody has open meanwhile.
+@dataclass
+class Repaired:
+    """What was done."""
 
-    Returns:
-        A sentence for each thing that was done; none where there was nothing to do.
+    said: list[str] = field(default_factory=list)
+    """A sentence for each thing; none where there was nothing to do."""
+
+    whole: bool = True
+    """Whether no label was lost, or set aside."""
+
+
+def repair(folder: Path) -> Repaired:
+    """Repair the labels of a folder, which nobody has open meanwhile.
 
     Raises:
         StoreError: There are none, they are of a newer version or not ours, nothing of them can be
@@ -48,23 +59,26 @@ def repair(folder: Path) -> list[str]:
     path = folder / NAME
     if not holds_something(path):
         raise StoreError(f"{folder} has no labels to repair.")
-    said: list[str] = []
+    done = Repaired()
     lost: dict[int, str] = {}
     try:
         examine(path)
     except DamagedError:
-        lost = _save(path, said)
+        lost = _save(path, done)
+        with closing(Store(folder)) as store:
+            store.find()  # photos that are there say themselves what was lost of them
     with closing(connect(folder)) as database, sentences(path):
         database.execute("BEGIN IMMEDIATE")
-        said += _drop_proposals(database)
+        done.said += _drop_proposals(database)
         for label, reason in _unreadable(database, lost).items():
             _set_aside(database, label, reason)
-            said.append(f"set aside: {reason}")
-        database.execute("COMMIT" if said else "ROLLBACK")
-    return said
+            done.said.append(f"set aside: {reason}")
+            done.whole = False
+        database.execute("COMMIT" if done.said else "ROLLBACK")
+    return done
 
 
-def _save(path: Path, said: list[str]) -> dict[int, str]:
+def _save(path: Path, done: Repaired) -> dict[int, str]:
     """Put what can be read of a damaged file in its place; return why labels are not whole."""
     found = salvaged(path)
     date = datetime.now().astimezone().strftime("%Y-%m-%d-%H%M%S")
@@ -78,6 +92,10 @@ def _save(path: Path, said: list[str]) -> dict[int, str]:
                     copy = kept.with_name(file.name.replace(path.name, kept.name))
                     shutil.copyfile(file, copy)
                     flush(copy)
+            if found.left:
+                aside = path.with_name(f"{path.stem}-set-aside-{date}.json")
+                aside.write_text(json.dumps(found.left, default=_plain), encoding="utf-8")
+                flush(aside)
             for file in beside:  # which belong to the damaged file, and not to the new one
                 file.unlink(missing_ok=True)
     except StoreError:
@@ -85,9 +103,25 @@ def _save(path: Path, said: list[str]) -> dict[int, str]:
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise StoreError(f"{path} cannot be repaired: {reason}.") from error
-    said.append(f"{path} was damaged; what can be read is in a new one, and it is now {kept.name}.")
-    said += found.said
+    done.said.append(
+        f"{path} was damaged; what can be read is in a new one, and it is now {kept.name}."
+    )
+    if found.left:
+        found.said.append(
+            f"{len(found.left)} operations belong to labels that are lost, and are set aside in "
+            f"{aside.name}."
+        )
+    done.said += found.said
+    done.whole = not found.said
     return found.lost
+
+
+def _plain(value: bytes) -> list[int] | str:
+    """Bytes of a line for JSON: its rows where they can be read."""
+    try:
+        return [int(row) for row in Line.unpacked(value).skyline.rows]
+    except LineError:
+        return bytes(value).hex()
 
 
 def _unreadable(database: sqlite3.Connection, lost: Mapping[int, str]) -> dict[int, str]:

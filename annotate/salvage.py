@@ -1,12 +1,13 @@
 """Rows that can still be read from a damaged file of labels, whatever else of it is lost.
 
 Rows are read in their order, and where a page of the file is damaged, one by one behind it. The
-index of operations tells of which labels operations are lost.
+index of operations tells of which labels operations are lost; those of photos and of labels hold
+enough to know whose label of which photo each was.
 """
 
 from __future__ import annotations
 
-import shutil
+import json
 import sqlite3
 import tempfile
 from collections.abc import Iterator
@@ -16,9 +17,12 @@ from pathlib import Path
 from typing import Any
 
 from annotate.database import APPLICATION, DamagedError, StoreError, migrate, prepare
+from annotate.journal import replay
+from annotate.lines import Line, LineError
 
 _TABLES = ("photos", "detectors", "labels", "operations", "set_aside")
 _FAR = 10_000  # rows that are looked for behind the last one, where their number is unknown
+_TALLEST = 1_000_000  # rows that a photo can have
 _FAULTS = (sqlite3.DatabaseError, UnicodeError, OverflowError)
 
 
@@ -35,6 +39,9 @@ class Salvage:
     said: list[str] = field(default_factory=list)
     """A sentence for all else that is lost."""
 
+    left: list[dict[str, Any]] = field(default_factory=list)
+    """Operations of labels that are lost: rows of their table, to be kept elsewhere."""
+
 
 def salvaged(path: Path) -> Salvage:
     """Read what can be read from a damaged file of labels.
@@ -45,10 +52,7 @@ def salvaged(path: Path) -> Salvage:
     with tempfile.TemporaryDirectory(prefix="skyline-labels-") as folder:
         copy = Path(folder) / path.name
         try:
-            for end in ("", "-wal", "-journal"):
-                file = path.with_name(path.name + end)
-                if file.exists():
-                    shutil.copyfile(file, copy.with_name(file.name))
+            incomplete = replay(path, copy)
         except OSError as error:
             reason = (error.strerror or str(error)).lower()
             raise StoreError(f"{path} cannot be copied to be read: {reason}.") from error
@@ -63,7 +67,10 @@ def salvaged(path: Path) -> Salvage:
                     f"{path} is so damaged that nothing of it can be read; restore it from a "
                     "backup."
                 ) from error
-            return _read(there)
+            found = _read(there)
+    if incomplete:
+        found.said.append("its journal was damaged: changes that were kept last may be missing.")
+    return found
 
 
 def _read(there: sqlite3.Connection) -> Salvage:
@@ -78,6 +85,8 @@ def _read(there: sqlite3.Connection) -> Salvage:
         if missed:
             found.said.append(f"{missed} rows of {table} are damaged, and are left out.")
     _tell_lost(there, found)
+    _keep_indexed_labels(there, found)
+    _keep_indexed_photos(there, found)
     _make_consistent(found)
     here.execute("PRAGMA foreign_keys = ON")
     return found
@@ -193,24 +202,81 @@ def _around(kept: dict[int, int], number: int) -> set[int]:
     return {label for label in (before, after) if label is not None}
 
 
+def _indexed(there: sqlite3.Connection, columns: str, table: str) -> list[tuple[Any, ...]]:
+    """What the index of a table that makes its rows unique holds of them, as far as it is read."""
+    found: list[tuple[Any, ...]] = []
+    with suppress(*_FAULTS):
+        found.extend(
+            there.execute(
+                f"SELECT {columns}, rowid FROM {table} INDEXED BY sqlite_autoindex_{table}_1"  # noqa: S608
+            )
+        )
+    return found
+
+
+def _keep_indexed_labels(there: sqlite3.Connection, found: Salvage) -> None:
+    """Keep labels whose rows are lost: their index says of which photo, and whose they are."""
+    for photo, who, number, label in _indexed(there, "photo, annotator, number", "labels"):
+        row = {"id": label, "photo": photo, "annotator": who, "number": number}
+        _keep(found, "labels", row, set(row))  # ignored where it is there
+
+
+def _keep_indexed_photos(there: sqlite3.Connection, found: Salvage) -> None:
+    """Keep photos of labels whose rows are lost: all else is found with a file of the digest."""
+    labels = found.labels
+    digests = {number: digest for digest, number in _indexed(there, "digest", "photos")}
+    lost = "SELECT DISTINCT photo FROM labels WHERE photo NOT IN (SELECT id FROM photos)"
+    unknown = 0
+    for (photo,) in labels.execute(lost).fetchall():
+        width, height = _size(labels, photo)
+        unknown += photo not in digests
+        labels.execute(
+            "INSERT OR IGNORE INTO photos (id, digest, name, width, height, size, changed)"
+            " VALUES (?, ?, ?, ?, ?, 0, 0)",
+            (photo, digests.get(photo, f"lost-{photo}"), f"unknown-{photo}", width, height),
+        )
+    if unknown:
+        found.said.append(f"{unknown} photos of labels are lost, and nothing tells which they are.")
+
+
+def _size(labels: sqlite3.Connection, photo: int) -> tuple[int, int]:
+    """Columns of a photo, and rows that it has at least, by what was done to it."""
+    width, height = 1, 1
+    for line, body in labels.execute(
+        "SELECT line, body FROM operations JOIN labels ON labels.id = label WHERE photo = ?"
+        " UNION ALL SELECT proposal, '' FROM labels WHERE photo = ?",
+        (photo, photo),
+    ):
+        with suppress(LineError):
+            skyline = Line.unpacked(line).skyline
+            width, height = skyline.width, max(height, int(skyline.rows.max()) + 1)
+        with suppress(ValueError, TypeError, LookupError, RecursionError):
+            done = json.loads(body)
+            rows = [done[name] for name in ("row", "to_row") if name in done]
+            rows += [*done.get("rows", ()), *(point[1] for point in done.get("points", ()))]
+            height = max([height, *(row + 1 for row in rows if row < _TALLEST)])
+    return width, height
+
+
 def _make_consistent(found: Salvage) -> None:
     """Leave out, with a sentence, what refers to rows that are lost."""
     labels = found.labels
-    labels.execute(
+    proposals = labels.execute(
         "UPDATE labels SET detector = NULL, proposal = NULL, margin = NULL"
         " WHERE detector NOT IN (SELECT id FROM detectors)"
-    )
-    gone = labels.execute("DELETE FROM labels WHERE photo NOT IN (SELECT id FROM photos)").rowcount
-    labels.execute("DELETE FROM set_aside WHERE label NOT IN (SELECT id FROM labels)")
-    if gone:
-        found.said.append(f"{gone} labels are lost with what was known of their photos.")
-    labels.execute("DROP TRIGGER operations_remain")
-    more = labels.execute(
-        "DELETE FROM operations WHERE label NOT IN (SELECT id FROM labels)"
     ).rowcount
+    if proposals:
+        found.said.append(f"{proposals} proposals are forgotten with what made them.")
+    labels.execute("DELETE FROM labels WHERE photo NOT IN (SELECT id FROM photos)")
+    labels.execute("DELETE FROM set_aside WHERE label NOT IN (SELECT id FROM labels)")
+    rows = labels.execute(
+        "SELECT * FROM operations WHERE label NOT IN (SELECT id FROM labels) ORDER BY id"
+    )
+    names = [column[0] for column in rows.description]
+    found.left = [dict(zip(names, row, strict=True)) for row in rows]
+    labels.execute("DROP TRIGGER operations_remain")
+    labels.execute("DELETE FROM operations WHERE label NOT IN (SELECT id FROM labels)")
     labels.execute(
         "CREATE TRIGGER operations_remain BEFORE DELETE ON operations"
         " BEGIN SELECT RAISE(ABORT, 'operations are never deleted'); END"
     )
-    if more:
-        found.said.append(f"{more} operations belong to labels that are lost.")

@@ -17,6 +17,7 @@ from annotate.database import (
     NAME,
     StoreError,
     holds_something,
+    journal_fault,
     migrate,
     prepare,
     require_database,
@@ -77,7 +78,9 @@ def read_into(copy: sqlite3.Connection, path: Path) -> None:
             _copy(copy, path, "immutable=1")
         if not _journals(path) and _written(path) == before:
             return None  # nobody has begun to write meanwhile
-    if not _journals(path) or path.with_name(f"{path.name}-shm").exists():
+    if not _journals(path) or (
+        path.with_name(f"{path.name}-shm").exists() and not journal_fault(path)
+    ):  # SQLite would mend the index of a journal that is damaged, which tells what is missing
         with suppress(sqlite3.OperationalError):  # what a journal needs cannot be made here
             return _copy(copy, path, "mode=ro")
     try:

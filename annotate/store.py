@@ -17,9 +17,9 @@ from time import time
 from typing import Any
 
 from annotate import standings
-from annotate.database import NAME, Place, StoreError, connect, sentences, shown
+from annotate.database import NAME, Place, StoreError, connect, journal_fault, sentences, shown
 from annotate.identity import Photo, Stamp, pixel_digest, scan
-from annotate.kept_detectors import pack, unpack
+from annotate.kept_detectors import keep_detector, unpack
 from annotate.kept_states import KeptStates, Request, StaleError, add, known, last_line, revision
 from annotate.label_table import Log, begin, insert, labels_of, whole_label
 from annotate.labels import Label
@@ -80,6 +80,8 @@ class Store:
         self.folder = folder
         self._lock = threading.RLock()
         self._place = None if reading or of else Place(folder / NAME)
+        self.fault = journal_fault(folder / NAME) if reading and not of else ""
+        """A sentence that says what is not read because the journal is damaged, if so."""
         if of:
             with of._reading() as database:
                 self._connection = snapshot(folder, database)
@@ -87,6 +89,7 @@ class Store:
             self._connection = snapshot(folder) if reading else connect(folder)
         self._states = KeptStates()
         self._present = Present()
+        self._unreadable: dict[int, str] = {}
         self.problems: list[str] = []
         """A sentence for each file that `find` had to leave out."""
         self.unreadable: list[str] = []
@@ -185,7 +188,7 @@ class Store:
                 raise StaleError(
                     "the photo has been worked on, so its proposal stays as it is.", now
                 )
-            made_by = None if detector is None else _keep_detector(database, detector)
+            made_by = None if detector is None else keep_detector(database, detector)
             database.execute(
                 "UPDATE labels SET proposal = ?, detector = ?, margin = ? WHERE id = ?",
                 (line.packed(), made_by, margin, label),
@@ -275,7 +278,7 @@ class Store:
         Raises:
             LogError: Its log cannot be read.
         """
-        with self._reading() as database, reading_label(database, label):
+        with self._whole(label) as database:
             state = self._states.read(database, label)
             return state if state.revision else replace(state, line=last_line(database, label))
 
@@ -302,6 +305,8 @@ class Store:
         for photo in self.photos():
             label, margin, blind = begun.get(photo.id, (None, None, False))
             one = stand.get(label or 0, Standing())
+            if label in self._unreadable:  # its standing may look well all the same
+                one = Standing("needs review", problem=self._unreadable[label])
             cards[photo.id] = Card(photo, label, margin=margin, blind=bool(blind), **vars(one))
         return cards
 
@@ -336,7 +341,7 @@ class Store:
         for label in labels:
             try:
                 state = self.state(label)
-                with self._reading() as database, reading_label(database, label):
+                with self._whole(label) as database:
                     found = whole_label(database, label, state)
             except LogError as error:
                 self.unreadable.append(str(error))
@@ -361,6 +366,17 @@ class Store:
             yield self._connection
 
     @contextmanager
+    def _whole(self, label: int) -> Iterator[sqlite3.Connection]:
+        """Read a label, and remember for `cards` when it cannot be read."""
+        try:
+            with self._reading() as database, reading_label(database, label):
+                yield database
+        except LogError as error:
+            self._unreadable[label] = str(error)
+            raise
+        self._unreadable.pop(label, None)
+
+    @contextmanager
     def _writing(self) -> Iterator[sqlite3.Connection]:
         with self._lock, sentences(self.folder / NAME):
             self.confirm_place()
@@ -382,14 +398,3 @@ class Store:
         """
         if self._place:
             self._place.confirm()
-
-
-def _keep_detector(database: sqlite3.Connection, detector: Method) -> int:
-    """Id of a detector, which is added where it is new."""
-    kept = pack(detector)
-    database.execute(
-        "INSERT OR IGNORE INTO detectors (digest, about, config, bank) VALUES (?, ?, ?, ?)",
-        (kept.digest, kept.about, kept.config, kept.bank),
-    )
-    row = database.execute("SELECT id FROM detectors WHERE digest = ?", (kept.digest,)).fetchone()
-    return int(row[0])

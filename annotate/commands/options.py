@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 import tyro
 
-from skyline_viz.commands.messages import UsageError
+from skyline_viz.commands.messages import UsageError, say
 
 if TYPE_CHECKING:
     from annotate.store import Store
@@ -101,6 +101,8 @@ def opened(folder: Path) -> Iterator[Store]:
     if not holds_something(check_folder(folder) / NAME):
         raise UsageError(f"{folder} has no labels yet; make some: {PROGRAM} open {folder}.")
     store = Store(folder, reading=True)
+    if store.fault:
+        say(store.fault, PROGRAM)
     try:
         yield store
     finally:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from annotate.commands.options import PROGRAM, PhotoFolder, check_folder, locked
-from skyline_viz.commands.messages import GOOD, say, tell
+from skyline_viz.commands.messages import GOOD, SOME_FAILED, say, tell
 
 
 @dataclass(frozen=True)
@@ -20,9 +20,9 @@ class Repair:
         from annotate.repair import repair  # noqa: PLC0415
 
         with locked(check_folder(self.folder)):
-            said = repair(self.folder)
-        for sentence in said:
+            done = repair(self.folder)
+        for sentence in done.said:
             say(sentence, PROGRAM)
-        if not said:
+        if not done.said:
             tell(f"All labels in {self.folder} can be read; nothing was changed.")
-        return GOOD
+        return GOOD if done.whole else SOME_FAILED

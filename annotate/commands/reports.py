@@ -11,7 +11,15 @@ import tyro
 
 from annotate.commands.options import PROGRAM, PhotoFolder, opened
 from annotate.labels import STATUSES
-from skyline_viz.commands.messages import GOOD, UsageError, counted, say, tell, tell_drawn
+from skyline_viz.commands.messages import (
+    GOOD,
+    SOME_FAILED,
+    UsageError,
+    counted,
+    say,
+    tell,
+    tell_drawn,
+)
 from skyline_viz.commands.settings import Switch, check_picture
 from skyline_viz.commands.sizes import MaxMegapixels
 from skyline_viz.memory import MAX_MEGAPIXELS
@@ -66,7 +74,7 @@ class Status:
             notes.append(unread)
         for note in notes:
             say(note, PROGRAM)
-        return GOOD
+        return SOME_FAILED if store.fault else GOOD
 
 
 @dataclass(frozen=True)
@@ -124,7 +132,7 @@ class Agreement:
                 raise UsageError(f"the photos are not in {self.folder} any more.")
             write_photo(self.picture, picture)
             tell(str(self.picture))
-        return GOOD
+        return SOME_FAILED if store.fault else GOOD
 
 
 def spoken(seconds: float) -> str:

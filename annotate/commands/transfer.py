@@ -83,7 +83,7 @@ class Export:
         if (missing := whole - export.written) > 0:
             what = "label" if self.orphans else "photo"
             tell(f"Not in it: {counted(missing, what)} of the folder.")
-        return GOOD
+        return SOME_FAILED if store.fault else GOOD
 
 
 @dataclass(frozen=True)
@@ -205,6 +205,8 @@ class Backup:
         out = self.out or Path(f"{name}-labels-{date}.sqlite")
         if out.exists():
             raise UsageError(f"{out} exists already.")
-        backup(self.folder, out)
+        fault = backup(self.folder, out)
+        if fault:
+            say(fault, PROGRAM)
         tell(str(out))
-        return GOOD
+        return SOME_FAILED if fault else GOOD
