@@ -118,23 +118,21 @@ class Task:
         for sentence in matched.unclear:
             self.found.problem(sentence)
         for stem, photo in matched.photos.items():
-            lines: list[Skyline] = []
+            lines: dict[Path, Skyline] = {}
             for file in of_stem[stem]:
                 try:
-                    line = check_size(photo, read(file, photo), self.photos)
+                    lines[file] = check_size(photo, read(file, photo), self.photos)
                 except (FormatError, PhotoError, SkylineError) as error:
                     self.found.problem(str(error))
-                    continue
-                if lines:
-                    told = "not used, because another file for the same photo is"
-                    self.found.note(told, file.name)
-                lines.append(line)
             try:
-                refuse_rivals(map(seen_rows, lines), "files", f"{photo} has")
+                refuse_rivals(map(seen_rows, lines.values()), "files", f"{photo} has")
             except FormatError as error:
                 self.found.problem(f"{error}.")
-            else:
-                self.found.labels += [Imported(photo, line) for line in lines[:1]]
+                continue
+            self.found.labels += [Imported(photo, line) for line in [*lines.values()][:1]]
+            for file in [*lines][1:]:
+                told = "not used, because another file for the same photo is"
+                self.found.note(told, file.name)
         if lost := [file.name for stem in matched.unknown for file in of_stem[stem]]:
             told = counted(len(lost), "file")
             belongs = "belongs" if len(lost) == 1 else "belong"
