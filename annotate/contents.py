@@ -54,6 +54,17 @@ class Contents:
                 return name
         return None
 
+    def copies(self, names: Iterable[str]) -> dict[str, str]:
+        """Other names of these photos: of files of the folder with the same bytes as one of them.
+
+        Args:
+            names: Names of files that may be copies.
+        """
+        others = [name for name in names if name not in self._names]
+        photos = {self._digest(name): name for name in reversed(self._names)} if others else {}
+        photos.pop("", None)  # what cannot be read
+        return {name: photos[one] for name in others if (one := self._digest(name)) in photos}
+
     def are(self, name: str, label: Label) -> bool:
         """Whether a photo is the one that a label was made for."""
         if not label.digest and not label.pixels:

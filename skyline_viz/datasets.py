@@ -33,7 +33,7 @@ from skyline_viz.photo import PhotoError, find_photos, photo_size, read_photo_wi
 from skyline_viz.photo_files import find_unread
 from skyline_viz.photo_kinds import left_out
 from skyline_viz.skyline import Skyline, SkylineError
-from skyline_viz.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, read_truth
+from skyline_viz.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, truth_with_notes
 
 Layout = Literal["Basalt", "Web", "CH1", "GeoPose3K", "plain"]
 """The published layouts, and the folder of photographs that follows none of them."""
@@ -85,14 +85,18 @@ class DatasetItem:
         return photo
 
     def truth(self) -> Skyline | None:
-        """Read the truth; None where there is none.
+        """Read the truth; None where there is none. What was left out of it is noted.
 
         Raises:
             SkylineError: The file is damaged, or is no truth; the message names it.
         """
         if self.truth_path is None:
             return None
-        return read_truth(self.truth_path, self.label_map, sky=self.sky, terrain=self.terrain)
+        path, sky, terrain = self.truth_path, self.sky, self.terrain
+        line = truth_with_notes(path, self.label_map, sky=sky, terrain=terrain)
+        if line.notes:
+            note(f"{path}: {'; '.join(line.notes)}.")
+        return line.skyline
 
 
 @dataclass(frozen=True)
@@ -357,7 +361,7 @@ def _misfit(photo: Path, truth: Path) -> str | None:
     try:
         height, width = photo_size(photo)
         if truth.suffix.lower() in SKYLINE_SUFFIXES:
-            found, wanted = f"{read_truth(truth).width} columns", f"{width}"
+            found, wanted = f"{truth_with_notes(truth).skyline.width} columns", f"{width}"
         else:
             found, wanted = "{1}x{0} pixels".format(*photo_size(truth)), f"{width}x{height}"
     except (PhotoError, SkylineError):

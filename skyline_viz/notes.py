@@ -1,6 +1,6 @@
-"""What had to be decided about a photo, on its way to whoever should hear it.
+"""What had to be decided about a photo or its truth, on its way to whoever should hear it.
 
-Photos are read deep inside the work, often in another process. A `DatasetItem` notes what there is
+They are read deep inside the work, often in another process. A `DatasetItem` notes what there is
 to know; whoever listens, such as a command, hears it. Nobody need listen.
 """
 
@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 Listener = Callable[[str], None]
-"""Takes one sentence, which names its photo."""
+"""Takes one sentence, which names its file."""
 
 _listeners: list[Listener] = []
 

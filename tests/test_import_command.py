@@ -127,3 +127,68 @@ def test_label_files_of_other_programs_are_no_truths_and_are_named(photos):
     dataset = open_dataset(photos)
     assert {item.name: item.truth() for item in dataset} == {"b": None, "ridge": made.SKYLINE}
     assert "skyline-annotate import" in dataset.problems[0]
+
+
+# What is said about truths and photos
+
+
+def speckled(folder, name):
+    sky = made.SKY.copy()
+    sky[5:7, 20:23] = False
+    write_photo(folder / name, np.where(sky, 0, 255).astype(np.uint8))
+    return folder / name
+
+
+COMMANDS = {
+    "evaluate": ["evaluate", "photos", "--workers", "1"],
+    "evaluate in processes": ["evaluate", "photos", "--workers", "2"],
+    "cross-validate": ["evaluate", "photos", "--workers", "2", "--folds", "2"],
+    "train": ["train", "photos", "--out", "bank.npz", "--workers", "1"],
+    "diagnose": ["diagnose", "photos", "--no-remedies", "--workers", "1"],
+    "inspect": ["inspect", "photos", "--headless"],
+}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_what_was_left_out_of_a_truth_is_said_once(photos, command, capsys):
+    for name in ("ridge.png", "b.png"):
+        speckled(photos / "masks", name)
+    assert main(COMMANDS[command]) == 0
+    said = [one for one in capsys.readouterr().err.splitlines() if "specks" in one]
+    assert sorted(said) == [
+        f"skyline-viz: photos/masks/{name}: specks above the line were left out in columns 20 to "
+        f"22."
+        for name in ("b.png", "ridge.png")
+    ]
+
+
+def test_what_was_left_out_of_a_truth_that_is_named_is_said(photos, capsys):
+    speckled(photos.parent, "truth.png")
+    words = ["inspect", "photos/ridge.png", "--truth", "truth.png", "--headless"]
+    assert main(words) == 0
+    told = "truth.png: specks above the line were left out in columns 20 to 22."
+    assert capsys.readouterr().err.count(told) == 1
+
+
+@pytest.mark.parametrize("command", ["evaluate", "train", "diagnose"])
+def test_photos_that_cannot_be_read_are_named_with_the_reason(photos, command, capsys):
+    speckled(photos / "masks", "ridge.png")
+    (photos / "empty.png").touch()
+    (photos / "torn.jpg").write_bytes(b"\xff\xd8\xff\xe0 and no more")
+    assert main(COMMANDS[command]) == 0
+    told = capsys.readouterr().err
+    assert "empty.png is empty (0 bytes); it has no truth either." in told
+    assert "torn.jpg" in told
+    assert "left out, because there is no truth: b." in told
+
+
+def test_masks_of_four_names_of_one_photo(photos, capsys):
+    for name in ("c.png", "d.png"):
+        (photos / name).write_bytes((photos / "b.png").read_bytes())
+    for name in ("b.png", "c.png", "d.png"):
+        speckled(photos.parent / "in", name)
+    assert run("in") == 0
+    said = capsys.readouterr()
+    assert "1 label imported" in said.out
+    assert "c.png, d.png are the same photo as b.png, and one label of it is kept." in said.err
+    assert "belong" not in said.err

@@ -354,3 +354,122 @@ def test_damaged_documents_raise_nothing_but_sentences(tmp_path, photos, seed):
             assert one.skyline.width == WIDTH
             assert one.skyline.rows.min() >= 0
             assert one.skyline.rows.max() <= HEIGHT
+
+
+# Labels that cannot all be right
+
+
+def level(row, first=0.0, last=float(WIDTH)):
+    return [(first, float(row)), (last, float(row))]
+
+
+@pytest.mark.parametrize("apart", [0, 2, 3, 60])
+@pytest.mark.parametrize("kind", ["two files", "one file", "cvat"])
+def test_two_lines_of_a_photo_agree_or_none_is_imported(tmp_path, photos, kind, apart):
+    write_photo(photos / "b.png", made.photo())
+    other = level(30 + apart, 40)
+    if kind == "two files":
+        made.written(tmp_path / "in" / "anna" / "p.json", labelme(shape(level(30))))
+        made.written(tmp_path / "in" / "ben" / "p.json", labelme(shape(other)))
+        made.written(tmp_path / "in" / "b.json", labelme(shape(level(9)), name="b.png"))
+    elif kind == "one file":
+        made.written(tmp_path / "in" / "a.json", labelme(shape(level(30)), shape(other)))
+        made.written(tmp_path / "in" / "b.json", labelme(shape(level(9)), name="b.png"))
+    else:
+        lines = [
+            f'<polyline label="skyline" points="{made.cvat_points(one)}"/>'
+            for one in (level(30), other)
+        ]
+        document = made.cvat("".join(lines))
+        start, end = document.index("<image"), document.index("</image>") + len("</image>")
+        good = made.cvat(lines[0], name="b.png")
+        good = good[good.index("<image") : good.index("</image>") + len("</image>")]
+        document = document[:start] + good + document[start:end] + document[end:]
+        made.written(tmp_path / "in" / "a.xml", document)
+    found = imported(tmp_path / "in", photos, (NAME, "b.png"))
+    if apart > 2:
+        assert [one.name for one in found] == ["b.png"]
+        assert found.problems == (
+            f"{NAME} has two lines that differ by up to {apart} px in columns 40 to {WIDTH - 1}; "
+            f"none is imported.",
+        )
+    else:
+        assert sorted(one.name for one in found) == ["b.png", NAME]
+        assert found.problems == ()
+
+
+def test_lines_that_meet_at_a_cliff_are_one(tmp_path, photos):
+    document = labelme(shape(level(30, 0, 80.7)), shape(level(70, 80.2, WIDTH)))
+    (found,) = imported(made.written(tmp_path / "a.json", document), photos)
+    np.testing.assert_array_equal(found.skyline.rows, [30] * 81 + [70] * (WIDTH - 81))
+
+
+@pytest.mark.parametrize("apart", [0, 40])
+def test_two_tables_of_a_photo_agree_or_none_is_imported(tmp_path, photos, apart):
+    for folder, row in (("anna", 30), ("ben", 30 + apart)):
+        Skyline(np.full(WIDTH, row)).write_csv(tmp_path / "in" / folder / "ridge.csv")
+    if apart:
+        said = said_about(tmp_path / "in", photos)
+        assert said == (
+            f"{NAME} has two files that differ by up to 40 px in columns 0 to {WIDTH - 1}; "
+            f"none is imported."
+        )
+    else:
+        found = imported(tmp_path / "in", photos)
+        assert len(found) == 1
+        assert "another file for the same photo" in found.notes[0]
+
+
+SHARES = [(0.0, 0.0), (1.0, 0.0), (1.0, 0.4), (0.5, 0.3), (0.0, 0.4)]
+IN_SHARES = {
+    "coco": coco([[made.flat(SHARES)]]),
+    "labelme line": labelme(shape(SHARES[2:])),
+    "labelme polygon": labelme(shape(SHARES, "sky", "polygon")),
+    "cvat": made.cvat(f'<polyline label="skyline" points="{made.cvat_points(SHARES[2:])}"/>'),
+}
+
+
+@pytest.mark.parametrize("kind", IN_SHARES)
+def test_shares_of_the_sides_are_no_pixels(tmp_path, photos, kind):
+    ending = "xml" if kind == "cvat" else "json"
+    said = said_about(made.written(tmp_path / f"a.{ending}", IN_SHARES[kind]), photos)
+    assert "its points lie within one pixel of the corner: coordinates must be in pixels." in said
+
+
+# Photos of the same content
+
+
+@pytest.mark.parametrize("kind", ["mask", "labelme"])
+@pytest.mark.parametrize("apart", [0, 1, 20])
+def test_labels_of_copies_are_one_and_the_others_are_named(tmp_path, photos, kind, apart):
+    shutil.copy(photos / NAME, photos / "z.png")
+    shutil.copy(photos / NAME, photos / "y.png")
+    for name, row in ((NAME, 30), ("y.png", 30), ("z.png", 30 + apart)):
+        stem = name.removesuffix(".png")
+        if kind == "mask":
+            sky = Skyline(np.full(WIDTH, row)).to_mask(HEIGHT)
+            write_photo(tmp_path / "in" / name, np.where(sky, 0, 255).astype(np.uint8))
+        else:
+            document = labelme(shape(level(row)), name=name)
+            made.written(tmp_path / "in" / f"{stem}.json", document)
+    found = imported(tmp_path / "in", photos)
+    assert [one.name for one in found] == [NAME]
+    np.testing.assert_array_equal(found[0].skyline.rows, 30)
+    told = f"y.png, z.png are the same photo as {NAME}, and one label of it is kept."
+    assert found.notes == (told,)
+    wrong = (
+        f"z.png is the same photo as {NAME}, and their labels differ by up to {apart} px in "
+        f"columns 0 to {WIDTH - 1}; that of {NAME} is kept."
+    )
+    assert found.problems == ((wrong,) if apart else ())
+
+
+def test_a_label_that_only_a_copy_has_is_that_of_the_photo(tmp_path, photos):
+    (photos / "day").mkdir()
+    shutil.copy(photos / NAME, photos / "z.png")
+    shutil.copy(photos / NAME, photos / "day" / NAME)
+    SKYLINE.write_csv(tmp_path / "in" / "z.csv")
+    is_right(imported(tmp_path / "in", photos))
+    document = labelme(shape(level(30)), name=f"elsewhere/{NAME}")
+    found = imported(made.written(tmp_path / "a.json", document), photos)
+    assert [one.name for one in found] == [NAME]

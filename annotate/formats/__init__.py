@@ -40,6 +40,7 @@ from annotate.formats.common import (
     one_each,
     orphans_of,
 )
+from annotate.formats.copies import unite_copies
 from annotate.formats.documents import unpacked
 from annotate.formats.drawings import Wanted
 from annotate.formats.importing import Found, Imports, Reader, Task
@@ -204,6 +205,8 @@ def import_labels(
     if sky is not None and terrain is not None:
         raise FormatError("say which label or value is sky, or which is terrain, and not both.")
     names = tuple(names)
+    below = names_below(photos)
+    copies = (contents or Contents(photos, names)).copies(below)
     with unpacked(source) as place:
         files = files_below(place)
         task = Task(
@@ -211,7 +214,7 @@ def import_labels(
             files=tuple(files),
             photos=photos,
             given=names,
-            names=PhotoNames(names, names_below(photos)),
+            names=PhotoNames(names, below, copies),
             found=Found(),
             contents=contents,
             wanted=Wanted.of(label, sky, terrain),
@@ -225,6 +228,7 @@ def import_labels(
         except MemoryError as error:
             raise FormatError(f"{source} does not fit into memory.") from error
     found = task.found
+    unite_copies(found, copies)
     found.problems[:] = [_unpacked_name(one, place, source) for one in found.problems]
     if not found.labels:
         reasons = [*found.problems, *found.notes]

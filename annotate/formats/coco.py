@@ -13,7 +13,7 @@ import numpy.typing as npt
 from annotate.formats.common import Entry, FormatError
 from annotate.formats.drawings import Drawing, Shape, list_of, size_of_drawing, text_of
 from annotate.formats.importing import Found
-from annotate.formats.outlines import Runs, points_of
+from annotate.formats.outlines import Runs, check_pixels, points_of
 from skyline_viz.files import write_text
 
 POLYGON, RLE = "annotations-polygon.json", "annotations-rle.json"
@@ -117,6 +117,7 @@ def _shape(label: str, told: Any) -> Shape:  # noqa: ANN401
         if not isinstance(ring, list) or len(ring) % 2 or len(ring) < 6:
             raise FormatError("a polygon is no list of three or more points")
         found.append(points_of([ring[place : place + 2] for place in range(0, len(ring), 2)]))
+    check_pixels(found)
     return Shape(label, "polygon", tuple(found))
 
 

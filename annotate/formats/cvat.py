@@ -9,7 +9,7 @@ from xml.etree import ElementTree as ET  # written only; `documents.xml_of` read
 from annotate.formats.common import Entry, FormatError, runs_of_points
 from annotate.formats.drawings import Drawing, Shape, side_of, size_of_drawing
 from annotate.formats.importing import Found
-from annotate.formats.outlines import Points, Runs, points_of
+from annotate.formats.outlines import Points, Runs, check_pixels, points_of
 from skyline_viz.files import write_text
 
 _LINE = "skyline"
@@ -91,6 +91,7 @@ def _shape(element: ET.Element, label: str) -> Shape:
     points = _points(element.get("points", ""))
     if len(points) < (3 if kind == "polygon" else 1):
         raise FormatError(f"it has {len(points)} points")
+    check_pixels([points])
     return Shape(label, kind, (points,))
 
 

@@ -11,6 +11,7 @@ from annotate.contents import Contents
 from annotate.formats.common import FormatError, Imported, check_size
 from annotate.formats.drawings import Wanted
 from annotate.formats.photo_names import PhotoNames
+from annotate.formats.rivals import refuse_rivals, seen_rows
 from skyline_viz.commands.messages import counted, listed
 from skyline_viz.photo import PhotoError
 from skyline_viz.skyline import Skyline, SkylineError
@@ -107,24 +108,32 @@ class Task:
         """Read the file of each photo, where files are called as photos are.
 
         Args:
-            files: The files; of two for a photo the first counts.
+            files: The files; of two for a photo the first counts, if they agree.
             read: Reads one, given the name of its photo.
         """
-        of_stem: dict[str, Path] = {}
+        of_stem: dict[str, list[Path]] = {}
         for file in files:
-            first = of_stem.setdefault(file.stem, file)
-            if first is not file:
-                self.found.note("not used, because another file for the same photo is", file.name)
+            of_stem.setdefault(file.stem, []).append(file)
         matched = self.names.of_stems(of_stem)
         for sentence in matched.unclear:
             self.found.problem(sentence)
         for stem, photo in matched.photos.items():
+            lines: dict[Path, Skyline] = {}
+            for file in of_stem[stem]:
+                try:
+                    lines[file] = check_size(photo, read(file, photo), self.photos)
+                except (FormatError, PhotoError, SkylineError) as error:
+                    self.found.problem(str(error))
             try:
-                skyline = read(of_stem[stem], photo)
-                self.found.labels.append(Imported(photo, check_size(photo, skyline, self.photos)))
-            except (FormatError, PhotoError, SkylineError) as error:
-                self.found.problem(str(error))
-        if lost := [of_stem[stem].name for stem in matched.unknown]:
+                refuse_rivals(map(seen_rows, lines.values()), "files", f"{photo} has")
+            except FormatError as error:
+                self.found.problem(f"{error}.")
+                continue
+            self.found.labels += [Imported(photo, line) for line in [*lines.values()][:1]]
+            for file in [*lines][1:]:
+                told = "not used, because another file for the same photo is"
+                self.found.note(told, file.name)
+        if lost := [file.name for stem in matched.unknown for file in of_stem[stem]]:
             told = counted(len(lost), "file")
             belongs = "belongs" if len(lost) == 1 else "belong"
             self.found.note(f"{told} {belongs} to no photo of the folder: {listed(lost)}")

@@ -12,8 +12,9 @@ from annotate.formats.common import FormatError, Imported, size_of
 from annotate.formats.documents import misread
 from annotate.formats.drawings import Drawing, Shape, Wanted, labels_found
 from annotate.formats.importing import Found
-from annotate.formats.outlines import line_rows, polygon_mask
+from annotate.formats.outlines import line_rows, own_rows, polygon_mask
 from annotate.formats.photo_names import PhotoNames
+from annotate.formats.rivals import refuse_rivals
 from skyline_viz.commands.messages import listed
 from skyline_viz.sky_region import line_of
 from skyline_viz.skyline import Skyline, SkylineError, fill
@@ -74,7 +75,8 @@ def _add(
         )
     except (FormatError, SkylineError) as error:
         text = str(error).rstrip(".")
-        found.problem(f"{text}." if text.startswith(photo) else f"{photo}: {text}.")
+        between = " " if text.startswith("has ") else ": "
+        found.problem(f"{text}." if text.startswith(photo) else f"{photo}{between}{text}.")
         return
     tags = dict.fromkeys(tag for one in drawings for tag in one.tags)
     found.labels.append(Imported(photo, skyline, tuple(tags)))
@@ -101,7 +103,9 @@ def _skyline(
     skies = [one for one in shapes if wanted.is_sky(one)]
     terrains = [one for one in shapes if wanted.is_terrain(one)]
     if lines:
-        rows, visible = line_rows([ring for one in lines for ring in one.rings], height, width)
+        rings = [ring for one in lines for ring in one.rings]
+        rows, visible = line_rows(rings, height, width)
+        refuse_rivals(own_rows(ring, width) for ring in rings)
         if skies or terrains:
             found.note("where there is a line, regions were left out", photo)
     elif terrains:

@@ -16,7 +16,7 @@ from PIL import Image
 from annotate.formats.common import Entry, FormatError, runs_of_points
 from annotate.formats.drawings import Drawing, Shape, list_of, size_of_drawing, text_of
 from annotate.formats.importing import Found
-from annotate.formats.outlines import Points, Runs, points_of
+from annotate.formats.outlines import Points, Runs, check_pixels, points_of
 from skyline_viz.files import write_text
 
 _LINE = "skyline"
@@ -85,6 +85,8 @@ def _shape(told: Any) -> Shape:  # noqa: ANN401
     least = 3 if kind == "polygon" else 2
     if len(points) < least:
         raise FormatError(f"a {kind} has {len(points)} points")
+    if _KINDS[kind] != "box":
+        check_pixels([points])
     return Shape(label, _KINDS[kind], (points,))
 
 

@@ -87,6 +87,19 @@ def points_of(told: Any) -> Points:  # noqa: ANN401
     return points
 
 
+def check_pixels(rings: Sequence[Points]) -> None:
+    """Refuse a shape whose coordinates are shares of the photo's sides.
+
+    Raises:
+        FormatError: All points lie within a pixel of the corner, and are not one point.
+    """
+    points = np.concatenate([np.zeros((0, 2)), *rings])
+    if np.abs(points).max(initial=0) <= 1 and np.ptp(points, axis=0).any():
+        raise FormatError(
+            "its points lie within one pixel of the corner: coordinates must be in pixels"
+        )
+
+
 def polygon_mask(
     rings: Iterable[Points], height: int, width: int
 ) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
@@ -138,6 +151,14 @@ def line_rows(
         outside = rows.min() if rows.min() < -beyond else rows.max()
         raise FormatError(f"row {outside:g} of the line lies outside a height of {height}")
     return rows.clip(0, height), reached
+
+
+def own_rows(line: Points, width: int) -> npt.NDArray[np.float64]:
+    """Rows ``(width,)`` of one line, the upper ones; infinite in columns that it does not cross."""
+    rows = np.full(width, np.inf)
+    columns, ys = _crossings(line[:-1], line[1:], width, closed=True)
+    np.minimum.at(rows, columns, ys)
+    return rows
 
 
 def _crossings(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
@@ -34,14 +34,21 @@ class Matched:
 class PhotoNames:
     """The names of the photos of a folder."""
 
-    def __init__(self, names: Iterable[str], below: Iterable[str] = ()) -> None:
+    def __init__(
+        self,
+        names: Iterable[str],
+        below: Iterable[str] = (),
+        copies: Mapping[str, str] | None = None,
+    ) -> None:
         """Take the names.
 
         Args:
             names: Those of the photos that labels may be for, with ``/`` between folders.
             below: Those of all photos of the folder, by which exports name their files.
+            copies: The photo of each name that is another one of it; labels may go by it, too.
         """
-        self.names = sorted(set(names))
+        self._copies = dict(copies or {})
+        self.names = sorted({*names, *self._copies})
         self._known = frozenset(self.names)
         safe = safe_stems({*self.names, *below})
         self._schemes: tuple[dict[str, str], ...] = (
@@ -70,11 +77,16 @@ class PhotoNames:
             sum(stem in scheme or bare_stem(stem) in scheme for stem in stems)
             for scheme in self._schemes
         ]
-        return _matched(stems, lambda stem: self._of_stem(stem, fits))
+        return _matched(stems, lambda stem: self._one(*self._of_stem(stem, fits)))
 
     def of_references(self, references: Iterable[str]) -> Matched:
         """Photos of the names that label files hold."""
-        return _matched(references, self._of_reference)
+        return _matched(references, lambda name: self._one(*self._of_reference(name)))
+
+    def _one(self, rank: int, found: set[str]) -> tuple[int, set[str]]:
+        """One photo where all that a name could mean are copies of it."""
+        photos = {self._copies.get(name, name) for name in found}
+        return rank, photos if len(found) > len(photos) == 1 else found
 
     def _of_stem(self, stem: str, fits: list[int]) -> tuple[int, set[str]]:
         spellings = dict.fromkeys((stem, bare_stem(stem)))

@@ -6,10 +6,12 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
+from skyline_viz.batch import Failure
 from skyline_viz.commands.messages import UsageError, counted, listed, say, say_last
 from skyline_viz.commands.truth_options import Truths
 from skyline_viz.datasets import TRUTH_FOLDERS, Dataset, DatasetItem, truth_names
 from skyline_viz.names import shortened
+from skyline_viz.photo import PhotoError, photo_size
 
 _LONGEST = 255 - len("-overlay.jpg")
 """Bytes of an output's name, without the longest ending that we put to it."""
@@ -110,17 +112,28 @@ def _clashes(names: Sequence[str]) -> list[list[int]]:
 def with_truth(dataset: Dataset) -> list[DatasetItem]:
     """Photos of a data set that have a truth; says what is wrong with others.
 
+    Of those without a truth only the headers are read.
+
     Raises:
         UsageError: No photo has a truth.
     """
     _tell(dataset)
     usable = [item for item in dataset if item.truth_path]
+    without = []
+    for item in dataset:
+        if item.truth_path:
+            continue  # what is wrong with its photo is said when its turn comes
+        try:
+            photo_size(item.photo_path)
+            without.append(item.name)
+        except PhotoError as error:
+            say(f"{str(Failure(item.name, str(error))).rstrip('.')}; it has no truth either.")
     if not usable:
         raise UsageError(
             f"{dataset.name} holds no truth for any of its {len(dataset)} photos; "
             f"one is found as {truth_names(dataset.items[0])}."
         )
-    if without := [item.name for item in dataset if not item.truth_path]:
+    if without:
         say(f"left out, because there is no truth: {listed(without)}.")
     return usable
 

@@ -318,9 +318,9 @@ class Inspect:
     def _truth_of(self, one: Input) -> Skyline | None:
         if self.truth is None:
             return one.item.truth()
-        from skyline_viz.truths import read_truth  # noqa: PLC0415
-
-        return read_truth(self.truth, sky=self.truths.sky, terrain=self.truths.terrain)
+        sky, terrain = self.truths.sky, self.truths.terrain
+        given = replace(one.item, truth_path=self.truth, label_map=False, sky=sky, terrain=terrain)
+        return given.truth()
 
     def _lay_out(self, recording: rr.RecordingStream, contents: Contents | None) -> None:
         from skyline_viz.blueprints import detection_blueprint  # noqa: PLC0415
