@@ -22,6 +22,12 @@ _MOST = 64
 _SAME = 16
 """Largest difference of a channel that JPEG makes within a region."""
 
+_FLAT = 6
+"""So many pixels that lie inside one value are a class, however small a share of the picture."""
+
+_KEY = np.array([65536, 256, 1], np.int32)
+"""Makes one number of a colour."""
+
 _NEAR = 40
 """Largest difference of a channel between a colour and the class that it belongs to."""
 
@@ -159,7 +165,8 @@ def _levels(grey: npt.NDArray[Any], counts: dict[Any, int] | None) -> Classes:
     cut = _cut(grey.dtype, high)
     plain = len(values) <= 2
     if not plain and (cut is None or not low < cut <= high):
-        if len(values) > _MOST or cut is not None:
+        flat = sum(_flat_sums(grey).values())
+        if len(values) > _MOST or (cut is not None and flat < 0.3 * grey.size):
             raise SkylineError(
                 f"its brightest value is {high:g}, its darkest {low:g}, "
                 f"and in a mask terrain is 255 and sky 0"
@@ -194,7 +201,8 @@ def _cut(kind: np.dtype[Any], high: float) -> float | None:
 def _has_plateau(grey: npt.NDArray[Any], values: npt.NDArray[Any]) -> bool:
     """Whether a grey between the darkest and the brightest fills a region, as a third class does.
 
-    A soft edge goes through all of them alike, and through each in a few rows.
+    A soft edge goes through all of them alike, and through each in a few rows. A mast or a rim
+    may have few pixels: it is told by being flat, and thicker than an edge.
     """
     low, high = float(values[0]), float(values[-1])
     if len(values) <= _MOST:
@@ -202,9 +210,40 @@ def _has_plateau(grey: npt.NDArray[Any], values: npt.NDArray[Any]) -> bool:
         shares = np.bincount(numbers.ravel())[1:-1] / numbers.size
         if _is_region(numbers == 1 + np.argmax(shares)):
             return True
+    if _has_flat_step(grey, low, high):
+        return True
     steps = np.clip((grey.astype(np.float32) - low) * (16 / (high - low)), 0, 15).astype(np.uint8)
     shares = np.bincount(steps.ravel(), minlength=16)[1:15] / steps.size
     return bool(shares.max() > 5 * np.median(shares)) and _is_region(steps == 1 + shares.argmax())
+
+
+def _has_flat_step(grey: npt.NDArray[Any], low: float, high: float) -> bool:
+    """Whether one of the middle greys, and not each of them, has places that are flat."""
+    import cv2  # noqa: PLC0415  # not needed for help
+
+    scaled = ((grey.astype(np.float32) - low) * (256 / (high - low))).clip(0, 255).astype(np.uint8)
+    middle = (scaled >= 2 * _SAME) & (scaled < 256 - 2 * _SAME)
+    if np.count_nonzero(middle) < _FLAT:
+        return False
+    around = np.ones((3, 3), np.uint8)
+    apart = cv2.dilate(scaled, around) - cv2.erode(scaled, around)
+    sums = np.bincount(scaled[apart <= _SAME // 2] // 16, minlength=16)
+    usual = 5 * np.median(sums[2:14])
+    return any(  # a peak: from the ends of a slow edge the sums only fall
+        sums[step] >= max(_FLAT, usual + 1)
+        and sums[step] > 2 * max(sums[max(1, step - 2)], sums[min(14, step + 2)])
+        for step in range(2, 14)
+    )
+
+
+def _flat_sums(keys: npt.NDArray[Any]) -> dict[Any, int]:
+    """How many pixels of each value have nothing but it around them: edges have none."""
+    alike = keys[1:] == keys[:-1]
+    across = keys[:, 1:] == keys[:, :-1]
+    tall, wide = alike[1:] & alike[:-1], across[:, 1:] & across[:, :-1]
+    flat = tall[:, 1:-1] & wide[1:-1] & wide[:-2] & wide[2:]
+    found, sums = np.unique(keys[1:-1, 1:-1][flat], return_counts=True)
+    return dict(zip(found.tolist(), sums.tolist(), strict=True))
 
 
 def _is_region(inside: Bool) -> bool:
@@ -255,9 +294,9 @@ def _colours(picture: LabelPicture) -> Classes | None:
         return None
     if fine and picture.counts is not None:
         told = np.array(sorted(picture.counts), np.int64)
-        keys = told @ [65536, 256, 1]
+        keys = told @ _KEY
         number = _nearest(told, centres)[0].astype(np.uint8)
-        places = np.searchsorted(keys, colours.astype(np.int32) @ np.array([65536, 256, 1]))
+        places = np.searchsorted(keys, colours.astype(np.int32) @ _KEY)
         regions = number[places]
     else:
         regions, near = _quantised(colours, centres)
@@ -277,11 +316,13 @@ def _few(picture: LabelPicture) -> npt.NDArray[np.int64] | None:
     counts = picture.counts
     total = sum(counts.values())
     least = 0.005 * total if len(counts) > 16 else 1
-    main = [one for one, count in counts.items() if count >= least]
+    flat = _flat_sums(picture.colours.astype(np.int32) @ _KEY)
+    inside = {one: flat.get(int(np.array(one) @ _KEY), 0) for one in counts}
+    main = [one for one, count in counts.items() if count >= least or inside[one] >= _FLAT]
     if len(counts) <= 2 or not main:
         main = list(counts)
     elif 2 < len(main) <= _MOST:
-        main = [one for one in main if not _is_mixed(one, main, picture)]
+        main = [one for one in main if inside[one] >= _FLAT or not _is_mixed(one, main, picture)]
     if len(main) > _MOST or sum(counts[one] for one in main) < 0.9 * total:
         return None
     return np.array(sorted(main), np.int64)

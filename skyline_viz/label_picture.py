@@ -7,7 +7,7 @@ that; here nothing is turned into anything else.
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -19,10 +19,13 @@ from skyline_viz.arrays import U8, Bool
 from skyline_viz.memory import photo_limit
 from skyline_viz.orientation import orientation_in, orientation_of, upright_image
 from skyline_viz.photo import MIN_SIDE, PhotoError, reading
+from skyline_viz.photo_kinds import kind_of
 from skyline_viz.png_chunks import clean_png, png_chunks
 from skyline_viz.quiet_pillow import QUIET, silence_libtiff
+from skyline_viz.tiff_pages import put_first, tiff_page
 
-_FORMATS = ("AVIF", "BMP", "GIF", "JPEG", "JPEG2000", "PPM", "TIFF", "WEBP")
+_FORMATS = ("AVIF", "BMP", "GIF", "JPEG", "JPEG2000", "PPM", "WEBP")
+_HEAD = 64  # bytes: enough to tell any kind
 _PNG = b"\x89PNG\r\n\x1a\n"
 
 MANY = 256
@@ -44,6 +47,9 @@ class LabelPicture:
 
     opaque: Bool | None = None
     """``(H, W)`` what can be seen; None where everything can, or nothing."""
+
+    notes: tuple[str, ...] = ()
+    """What was left out of the file, each without its name and without a full stop."""
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -80,7 +86,8 @@ def read_label_picture(path: str | os.PathLike[str]) -> LabelPicture:
         PhotoError: It cannot be read, or its values are no finite numbers.
     """
     with reading(path) as file, QUIET:
-        image, orientation = _opened(file)
+        opened = _opened(file, Path(path))
+        image = opened.image
         width, height = image.size
         if width * height > photo_limit() * 1e6:
             raise PhotoError(
@@ -94,20 +101,55 @@ def read_label_picture(path: str | os.PathLike[str]) -> LabelPicture:
         deep = ";16" in str(getattr(image, "tile", "")) and not image.mode.startswith("I")
         image.load()
         if deep:
-            return _of_16_bits(Path(path), orientation)
-        return _of(upright_image(image, orientation), Path(path))
+            label = _of_16_bits(opened.file, Path(path), opened.stored)
+        else:
+            label = _of(upright_image(image, opened.orientation), Path(path))
+        return replace(label, notes=opened.notes)
 
 
-def _opened(file: BinaryIO) -> tuple[Image.Image, int]:
-    """An image that is not decoded yet, and its orientation as far as Pillow does not see to it."""
+@dataclass(frozen=True)
+class _Opened:
+    """A file whose picture is not decoded yet."""
+
+    file: BinaryIO
+    image: Image.Image
+    stored: int
+    """How its pixels are stored, an EXIF orientation."""
+
+    orientation: int
+    """The same as far as Pillow does not see to it."""
+
+    notes: tuple[str, ...] = ()
+
+
+def _opened(file: BinaryIO, path: Path) -> _Opened:
     if file.read(len(_PNG)) == _PNG:
         chunks = png_chunks(file)
         image = Image.open(clean_png(file, chunks), formats=("PNG",))
-        return image, orientation_in(chunks.exif)
+        orientation = orientation_in(chunks.exif)
+        return _Opened(file, image, orientation, orientation)
     file.seek(0)
-    silence_libtiff()
+    if kind_of(file.read(_HEAD), path) == "tiff":
+        return _opened_tiff(file, path)
+    file.seek(0)
     image = Image.open(file, formats=_FORMATS)
-    return image, orientation_of(image)
+    orientation = orientation_of(image)
+    return _Opened(file, image, orientation, orientation)
+
+
+def _opened_tiff(file: BinaryIO, path: Path) -> _Opened:
+    """The page that is no thumbnail, as of a photo; of two masks in a file none is guessed."""
+    silence_libtiff()
+    page = tiff_page(file, of_numbers=True)
+    if page.alike > 1:
+        raise PhotoError(
+            f"{path} has {page.alike} pages of the same size, and which of them is the mask "
+            f"is not said; save that page as a file of its own."
+        )
+    notes = (f"of its {page.pages} pages the largest was read",) if page.pages > 1 else ()
+    first = put_first(file, page)
+    image = Image.open(first, formats=("TIFF",))  # which is turned as its own page says
+    return _Opened(first, image, page.orientation, page.inherited, notes)
 
 
 def _of(image: Image.Image, path: Path) -> LabelPicture:
@@ -142,7 +184,7 @@ def _of_indices(image: Image.Image, opaque: Bool | None) -> LabelPicture:
     return LabelPicture(indices, counts, palette, opaque)
 
 
-def _of_16_bits(path: Path, orientation: int) -> LabelPicture:
+def _of_16_bits(file: BinaryIO, path: Path, orientation: int) -> LabelPicture:
     """Colours, or grey with alpha, of 16 bits: Pillow would keep their high bytes alone."""
     import cv2  # noqa: PLC0415  # not needed for help
 
@@ -150,7 +192,8 @@ def _of_16_bits(path: Path, orientation: int) -> LabelPicture:
         raise PhotoError(f"{path} has 16 bits a colour and is stored turned; save it upright.")
     level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
     try:
-        deep = cv2.imdecode(np.fromfile(path, np.uint8), cv2.IMREAD_UNCHANGED)
+        file.seek(0)
+        deep = cv2.imdecode(np.frombuffer(file.read(), np.uint8), cv2.IMREAD_UNCHANGED)
     except cv2.error:
         deep = None
     finally:

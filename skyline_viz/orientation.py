@@ -25,7 +25,7 @@ _TURNED: dict[int, Callable[[npt.NDArray[Any]], npt.NDArray[Any]]] = {
     4: lambda a: a[::-1],
     5: lambda a: a.swapaxes(0, 1),
     6: lambda a: np.rot90(a, -1),
-    7: lambda a: np.rot90(a, -1)[:, ::-1],
+    7: lambda a: np.rot90(a, -1)[::-1],
     8: lambda a: np.rot90(a, 1),
 }
 

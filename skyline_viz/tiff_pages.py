@@ -59,12 +59,23 @@ class TiffPage:
     white: int | None
     """The white that the file names."""
 
+    pages: int
+    """How many pages are no thumbnails."""
+
+    alike: int
+    """How many of these are of its size, itself among them."""
+
     notes: tuple[str, ...]
     """What to know about it, to go on after the name of the file."""
 
 
-def tiff_page(file: BinaryIO) -> TiffPage:
+def tiff_page(file: BinaryIO, *, of_numbers: bool = False) -> TiffPage:
     """Find the photo of a TIFF: its largest page that is no thumbnail; the first of equal ones.
+
+    Args:
+        file: The TIFF.
+        of_numbers: Whether its values may be any numbers, as a mask's, for which no white is
+            needed.
 
     Raises:
         RefusedError: It is a raw file, or has numbers for which no white is defined.
@@ -82,7 +93,9 @@ def tiff_page(file: BinaryIO) -> TiffPage:
         if not full:
             raise ValueError("it has no page")
         page = max(full, key=lambda page: page.imagewidth * page.imagelength)
-        _check(page)
+        _check_compression(page)
+        if not of_numbers:
+            _check_white(page)
         notes = []
         several = [one for one in full if _area(one) == _area(page)]
         if len(several) > 1:
@@ -103,6 +116,8 @@ def tiff_page(file: BinaryIO) -> TiffPage:
             deep=_is_deep(page),
             inverted=page.photometric == 0,
             white=_white(page),
+            pages=len(full),
+            alike=len(several),
             notes=tuple(notes),
         )
 
@@ -203,11 +218,15 @@ def _white(page: Any) -> int | None:  # noqa: ANN401
     return (1 << bits) - 1 if 8 < bits < 16 else None
 
 
-def _check(page: Any) -> None:  # noqa: ANN401
-    """Refuse what would be read wrongly, or would make libtiff speak on the screen."""
+def _check_compression(page: Any) -> None:  # noqa: ANN401
+    """Refuse what would make libtiff speak on the screen."""
     if page.compression not in _DECODED:
         name = getattr(page.compression, "name", str(page.compression)).replace("_", " ")
         raise RefusedError(f"is compressed by {name}, which cannot be undone inside a TIFF")
+
+
+def _check_white(page: Any) -> None:  # noqa: ANN401
+    """Refuse what would be read wrongly as a photo."""
     sample_format = int(page.sampleformat)
     if sample_format == 3:
         raise RefusedError("has floating-point pixels, which have no defined white")

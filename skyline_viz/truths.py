@@ -3,7 +3,7 @@
 Which one a file is, is told by its content.
 
 - A *painted photograph* has a line in pure red or pure blue, about one pixel a column. Hundreds a
-  column are a region, and so a mask.
+  column are a region, and so a mask. In a picture of few colours a strip may be a river or a road.
 - A *mask* tells sky from terrain, by grey level, colour, palette or transparency. Sky lies above
   terrain: of two values the upper one is sky, whether it is 0, as we write it, or 255. Soft masks
   are cut in the middle, at 128. A mask of one grey level is all sky if it is 0, and all terrain if
@@ -23,6 +23,7 @@ import numpy as np
 from skyline_viz.arrays import U8, Bool
 from skyline_viz.label_classes import Classes, classes_of
 from skyline_viz.label_picture import LabelPicture, read_label_picture
+from skyline_viz.painted_line import painted_line
 from skyline_viz.photo import PhotoError, read_photo
 from skyline_viz.sky_region import Line, line_of, shape_of
 from skyline_viz.skyline import Skyline, SkylineError
@@ -75,7 +76,10 @@ def truth_with_notes(
     except OSError as error:
         raise SkylineError(f"{path} cannot be read: {error.strerror}.") from error
     try:
-        return Line(_from_label_map(pixels)) if label_map else _read(picture, sky, terrain)
+        if label_map:
+            return Line(_from_label_map(pixels))
+        line = _read(picture, sky, terrain)
+        return Line(line.skyline, picture.notes + line.notes)
     except _AskError as error:
         raise SkylineError(f"{path} {error}.") from error
     except SkylineError as error:
@@ -111,13 +115,13 @@ def _text(path: Path) -> Skyline:
 
 def _read(picture: LabelPicture, sky: str | None, terrain: str | None) -> Line:
     """Tell what a picture is, and read it."""
-    painted = _painted(picture)
-    if painted is not None and sky is None and terrain is None:
-        return Line(painted)
+    given = sky is not None or terrain is not None
+    if not given and (painted := painted_line(picture)) is not None:
+        return painted
     classes = classes_of(picture)
     if classes is None:
-        if painted is not None:
-            return Line(painted)
+        if given and (painted := painted_line(picture)) is not None:
+            return painted
         raise SkylineError("no pixel is painted in pure red or pure blue, and it is no mask")
     if sky is None and terrain is None:
         return line_of(_upper(classes))
@@ -158,43 +162,6 @@ def _asking(classes: Classes) -> str:
         f"{classes.said}: say which is sky with --sky {classes.found[0].shown} or the like, "
         f"or which is terrain with --terrain VALUE"
     )
-
-
-def _painted(picture: LabelPicture) -> Skyline | None:
-    """The line that is painted on a picture; None where there is none, or a region.
-
-    Of a stray pixel in the paint's colour, or a red coat, no line is made.
-    """
-    if picture.values.ndim == 2 and picture.palette is None:
-        return None
-    bare = picture.counts is not None  # there is hardly a photo beneath
-    if picture.counts is not None and picture.palette is None:
-        hit = {(255, 0, 0), (0, 0, 255)} & set(picture.counts)
-        if not hit:
-            return None
-    colours = picture.colours
-    best: Skyline | None = None
-    for paint in (0, 2):
-        others = [one for one in range(3) if one != paint]
-        hits = (
-            (colours[:, :, paint] == 255)
-            & (colours[:, :, others[0]] == 0)
-            & (colours[:, :, others[1]] == 0)
-        )
-        if picture.opaque is not None:
-            hits &= picture.opaque
-        counts = hits.sum(axis=0)
-        columns = counts > 0
-        if not columns.any() or (best is not None and columns.sum() <= best.visible.sum()):
-            continue
-        if bare and hits[0, columns].mean() > 0.5:  # sky at the top, however thin
-            continue
-        thick = counts[columns]
-        share = columns.mean()
-        line = np.median(thick) <= 4 and thick.mean() <= max(8, 0.03 * len(hits))
-        if line and share >= 0.02 and (share >= 0.25 or thick.max() == 1):
-            best = Skyline.from_painted(colours, "red" if paint == 0 else "blue")
-    return best
 
 
 def _from_label_map(pixels: U8) -> Skyline:

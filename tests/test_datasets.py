@@ -42,14 +42,14 @@ def only(dataset):
 def basalt(root, count=3):
     for number in range(1, count + 1):
         put(root / "images" / f"marsim{number:04}.pgm", PHOTO[:, :, 1])
-        line = sv.Skyline(np.full(WIDTH, number)).to_painted(PHOTO)
+        line = sv.Skyline(np.full(WIDTH, number)).to_painted(NOISE)
         put(root / "ground_truth" / f"GT_marsim{number:03}_Edge.bmp", line)
 
 
 def web(root, count=3):
     for number in range(1, count + 1):
         put(root / "images" / f"R_GImag{number:04}.bmp")
-        line = sv.Skyline(np.full(WIDTH, number)).to_painted(PHOTO, "blue")
+        line = sv.Skyline(np.full(WIDTH, number)).to_painted(NOISE, "blue")
         put(root / "ground_truth" / f"GT_GoogleImage{number:03}_Edge.bmp", line)
 
 
@@ -420,7 +420,7 @@ def test_sizes_are_those_of_the_upright_photo(tmp_path):
 
 def test_of_several_truths_the_most_exact_counts(tmp_path):
     put(tmp_path / "a.jpg")
-    put(tmp_path / "ground_truth" / "a_Edge.bmp", sv.Skyline(ROWS + 1).to_painted(PHOTO))
+    put(tmp_path / "ground_truth" / "a_Edge.bmp", sv.Skyline(ROWS + 1).to_painted(NOISE))
     SKYLINE.write_csv(tmp_path / "masks" / "a.csv")
     dataset = sv.open_dataset(tmp_path)
     assert dataset.items[0].truth() == SKYLINE

@@ -4,10 +4,13 @@ import os
 
 import numpy as np
 import pytest
+import tifffile
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from PIL import Image
+from PIL import Image, ImageFilter
 
+from skyline_viz.orientation import upright, upright_image
+from skyline_viz.photo import read_photo
 from skyline_viz.sky_region import line_of
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.truths import read_truth, truth_with_notes
@@ -205,3 +208,209 @@ def test_an_image_that_is_turned_is_read_upright(tmp_path):
     turned = np.rot90(made.MASK)
     path = made.picture(tmp_path / "m.png", turned, exif=exif)
     assert read_truth(path) == made.SKYLINE
+
+
+TURNS = {
+    2: lambda a: a[:, ::-1],
+    3: lambda a: a[::-1, ::-1],
+    4: lambda a: a[::-1],
+    5: lambda a: a.swapaxes(0, 1),
+    6: lambda a: np.rot90(a),
+    7: lambda a: np.rot90(a, -1)[::-1],
+    8: lambda a: np.rot90(a, -1),
+}
+"""How pixels are stored that come upright by an orientation."""
+
+
+@pytest.mark.parametrize("orientation", TURNS)
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16, np.float32, "palette", "colours"])
+def test_a_turned_tiff_is_read_as_photos_are(tmp_path, orientation, kind):
+    turned = np.ascontiguousarray(TURNS[orientation](made.MASK))
+    path = tmp_path / "m.tif"
+    if kind == "palette":
+        image = Image.fromarray(turned).convert("P")
+        image.save(path, tiffinfo={274: orientation})
+    else:
+        values = turned if kind == "colours" else (turned // 255).astype(kind)
+        values = np.repeat(values[:, :, None], 3, axis=2) if kind == "colours" else values
+        tag = (274, "H", 1, orientation, True)
+        tifffile.imwrite(path, values, extratags=[tag], metadata=None)
+    assert read_truth(path) == made.SKYLINE
+    if kind == "colours":
+        np.testing.assert_array_equal(read_photo(path)[:, :, 0], made.MASK)
+
+
+def test_turned_tiff_colours_of_16_bits_are_refused(tmp_path):
+    pixels = np.repeat(made.MASK[::-1, :, None].astype(np.uint16) * 257, 3, axis=2)
+    tag = (274, "H", 1, 4, True)
+    tifffile.imwrite(tmp_path / "m.tif", pixels, photometric="rgb", extratags=[tag])
+    with pytest.raises(SkylineError, match="stored turned"):
+        read_truth(tmp_path / "m.tif")
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.float32])
+def test_the_full_page_of_a_tiff_is_its_mask(tmp_path, kind):
+    mask = (made.MASK // 255).astype(kind)
+    small = np.ascontiguousarray(mask[::-4, ::4])
+    for name, mark, notes in (
+        ("marked.tif", 1, ()),
+        ("plain.tif", 0, ("of its 2 pages the largest was read",)),
+    ):
+        with tifffile.TiffWriter(tmp_path / name) as file:
+            file.write(small, subfiletype=mark, metadata=None)
+            file.write(mask, metadata=None)
+        found = truth_with_notes(tmp_path / name)
+        assert (found.skyline, found.notes) == (made.SKYLINE, notes)
+
+
+def test_of_two_masks_in_a_tiff_none_is_guessed(tmp_path):
+    with tifffile.TiffWriter(tmp_path / "m.tif") as file:
+        for mask in (made.MASK[::-1], made.MASK):
+            file.write(np.ascontiguousarray(mask), metadata=None)
+    said = said_about(tmp_path / "m.tif")
+    assert "2 pages of the same size" in said
+    assert "which of them is the mask" in said
+
+
+@pytest.mark.parametrize("orientation", range(1, 9))
+def test_pixels_are_turned_as_pictures_are(orientation):
+    pixels = np.arange(12, dtype=np.uint8).reshape(3, 4)
+    wanted = np.asarray(upright_image(Image.fromarray(pixels), orientation))
+    np.testing.assert_array_equal(upright(pixels, orientation), wanted)
+
+
+RIVER = [(70, 130, 180), (90, 90, 90), (0, 0, 255), (255, 0, 0)]
+
+
+def with_strip(value, thick=3, top=110, columns=slice(0, 130), indices=None):
+    indices = np.where(made.SKY, 0, 1) if indices is None else indices.copy()
+    indices[top : top + thick, columns] = value
+    return indices
+
+
+@pytest.mark.parametrize("value", [2, 3])
+@pytest.mark.parametrize("thick", [1, 2, 3, 4])
+@pytest.mark.parametrize("whole", [True, False])
+@pytest.mark.parametrize("form", ["palette", "colours", "scaled", "fields"])
+def test_a_river_or_a_road_in_a_map_is_no_painted_line(tmp_path, value, thick, whole, form):
+    columns = slice(None) if whole else slice(0, 130)
+    indices = with_strip(value, thick, columns=columns)
+    if form == "fields":  # the strip parts what lies above it from what lies below
+        indices = with_strip(value, thick, columns=columns, indices=THREE_FIELDS)
+    table = np.array([*RIVER, (20, 90, 20)], np.uint8)
+    path = tmp_path / "m.png"
+    if form == "palette":
+        made.palette(path, indices, table.tolist())
+    elif form == "scaled":  # with blends at every border
+        image = Image.fromarray(np.repeat(np.repeat(table[indices], 2, axis=0), 2, axis=1))
+        image.resize((made.WIDTH, made.HEIGHT), Image.Resampling.BICUBIC).save(path)
+    else:
+        made.picture(path, table[indices])
+    assert "--sky" in said_about(path)
+    found = read_truth(path, sky="#4682b4")
+    assert np.abs(found.rows - made.ROWS).max() <= (1 if form == "scaled" else 0)
+
+
+THREE_FIELDS = np.where(made.SKY, 0, np.where(np.arange(made.HEIGHT)[:, None] < 112, 1, 4))
+
+
+@pytest.mark.parametrize("paint", ["red", "blue"])
+def test_a_line_along_the_border_of_a_flat_picture_is_painted(tmp_path, paint):
+    flat = np.array(RIVER, np.uint8)[np.where(made.SKY, 0, 1)]
+    for under in (flat, flat * 0):
+        path = made.picture(tmp_path / "m.png", made.SKYLINE.to_painted(under, paint))
+        assert read_truth(path) == made.SKYLINE
+
+
+def test_of_two_painted_lines_none_is_guessed(tmp_path):
+    painted = made.SKYLINE.to_painted(made.photo())
+    painted[:, :5][made.SKYLINE.to_painted(made.photo())[:, :5, 0] == 255] = (9, 9, 9)
+    painted[110] = made.BLUE
+    said = said_about(made.picture(tmp_path / "m.png", painted))
+    assert "red, in 155 columns" in said
+    assert "another in blue, in 160" in said
+
+
+def test_two_painted_lines_that_agree_are_one(tmp_path):
+    painted = made.SKYLINE.to_painted(made.photo())
+    painted[made.ROWS + 1, np.arange(made.WIDTH)] = made.BLUE
+    assert read_truth(made.picture(tmp_path / "m.png", painted)) == made.SKYLINE
+
+
+@pytest.mark.parametrize("alone", [True, False])
+def test_paint_far_from_the_line_is_said(tmp_path, alone):
+    painted = made.SKYLINE.to_painted(made.photo())
+    if alone:
+        painted[:, 50:56] = made.photo()[:, 50:56]
+    painted[5, 50:56] = made.RED
+    line = truth_with_notes(made.picture(tmp_path / "m.png", painted))
+    assert (line.skyline.rows[50:56] == 5).all()
+    note = "paint far from the rest of the line, in columns 50 to 55, counts as skyline"
+    assert line.notes == (note,)
+
+
+def third_value(kind):
+    levels = {"sky": 0, "terrain": 255, "third": 100}
+    mask = made.MASK.copy()
+    if kind == "a mast":
+        mask[20 : made.ROWS[100], 100:106] = levels["third"]
+    elif kind == "a rim":
+        mask = 255 - mask
+        mask[(np.arange(made.HEIGHT)[:, None] >= made.ROWS - 6) & made.SKY] = 160
+    elif kind == "a balloon":
+        mask[30:37, 40:47] = 90
+    return mask
+
+
+@pytest.mark.parametrize("kind", ["a mast", "a rim", "a balloon"])
+@pytest.mark.parametrize("form", ["grey", "16 bits", "rgb", "colours", "jpeg", "blurred"])
+def test_a_small_third_value_is_asked_about(tmp_path, kind, form):
+    mask, path = third_value(kind), tmp_path / "m.png"
+    sky = "255" if kind == "a rim" else "0"
+    if form == "16 bits":
+        made.picture(path, mask.astype(np.uint16) * 257)
+        sky = str(int(sky) * 257)
+    elif form == "rgb":
+        made.picture(path, np.repeat(mask[:, :, None], 3, axis=2))
+    elif form == "colours":
+        made.picture(path, np.dstack([mask * 0, mask * 0, mask]))
+        sky = "#0000ff" if kind == "a rim" else "#000000"
+    elif form == "jpeg":
+        path = made.picture(tmp_path / "m.jpg", mask, quality=90)
+    elif form == "blurred":
+        made.picture(path, Image.fromarray(mask).filter(ImageFilter.GaussianBlur(0.5)))
+    else:
+        made.picture(path, mask)
+    said = said_about(path)
+    if form in ("jpeg", "blurred"):
+        return
+    assert "--sky" in said
+    wanted = np.where(mask == mask[0, 0], 0, 255).argmax(axis=0)
+    if kind == "a balloon":  # a speck that floats, of which a note is made
+        wanted = made.ROWS
+    np.testing.assert_array_equal(read_truth(path, sky=sky).rows, wanted)
+
+
+@FEW
+@given(blur=st.floats(0, 12), scale=st.sampled_from([0.3, 0.7, 1, 2, 3.7]), upper=st.booleans())
+def test_soft_edges_are_no_third_value(tmp_path, blur, scale, upper):
+    image = Image.fromarray(255 - made.MASK if upper else made.MASK)
+    size = (int(made.WIDTH * scale), int(made.HEIGHT * scale))
+    soft = image.resize(size).filter(ImageFilter.GaussianBlur(blur * scale / 4))
+    half = (np.asarray(soft) < 128) != upper
+    found = read_truth(made.picture(tmp_path / "m.png", np.asarray(soft)))
+    assert np.abs(found.rows - half.argmin(axis=0)).max() <= 1
+
+
+@pytest.mark.parametrize("ids", [(0, 1, 2), (2, 3, 9), (10, 20, 30), (100, 101, 127)])
+@pytest.mark.parametrize("form", [np.uint8, np.uint16, "rgb"])
+def test_small_ids_are_asked_about_and_answered(tmp_path, ids, form):
+    values = np.array([ids[2], ids[0], ids[1]], np.uint8)[made.THREE]
+    values = np.repeat(values[:, :, None], 3, axis=2) if form == "rgb" else values.astype(form)
+    path = made.picture(tmp_path / "m.png", values)
+    said = said_about(path)
+    assert "--sky" in said
+    for one in ids:
+        assert f"{one} (" in said
+    assert read_truth(path, sky=str(ids[2])) == made.SKYLINE
+    assert read_truth(path, terrain=f"{ids[0]},{ids[1]}") == made.SKYLINE
