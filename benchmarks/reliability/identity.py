@@ -18,8 +18,7 @@ from typing import Any
 from annotate.cli import main
 from annotate.contents import Contents
 from annotate.database import NAME, StoreError
-from annotate.formats import FormatError
-from annotate.formats.whole import at_home, read_labels
+from annotate.formats import FormatError, import_labels
 from annotate.identity import pixel_digest
 from annotate.importing import checked
 from annotate.operations import SetStatus, Straight
@@ -204,9 +203,10 @@ def imported(source: Path) -> Trial:
             for number in range(1, _LOGS + 1):
                 one = {**chance.choice(document["labels"]), "number": number}
                 one["operations"] = [operation(chance) for _ in range(chance.randint(0, 5))]
+                one["status"] = chance.choice(["in progress", "to do", one["status"]])
                 file.write_text(json.dumps({**document, "labels": [one]}))
                 try:
-                    (found,), _ = at_home(read_labels(file), folder, contents)
+                    (found,) = import_labels(file, folder, photos, contents=contents)
                     photo = photos[found.name]
                     log = checked(found, photo, "ann", number, status="accepted", source=file.name)
                     store.insert([log])
