@@ -158,8 +158,9 @@ def _upper(classes: Classes) -> Bool:
 
 
 def _asking(classes: Classes) -> str:
+    top = classes.found[np.bincount(classes.regions[0]).argmax()]
     return (
-        f"{classes.said}: say which is sky with --sky {classes.found[0].shown} or the like, "
+        f"{classes.said}: say which is sky with --sky {top.shown} or the like, "
         f"or which is terrain with --terrain VALUE"
     )
 
