@@ -65,6 +65,18 @@ def test_labels_of_other_programs_are_read(tmp_path, photos, kind):
     is_right(imported(file.parent, photos))
 
 
+@pytest.mark.parametrize("kind", made.SAME)
+def test_masks_that_are_read_as_truths_are_imported(tmp_path, photos, kind):
+    folder = tmp_path / "in"
+    folder.mkdir()
+    mask = made.SAME[kind](folder)
+    mask.rename(mask.with_name(f"ridge{mask.suffix}"))
+    (found,) = imported(folder, photos)
+    seen = found.skyline.visible
+    assert seen.sum() > 0.9 * WIDTH
+    assert found.skyline.rows[seen].tolist() == made.ROWS[seen].tolist()
+
+
 def test_an_annotation_without_image_is_named_and_the_others_are_read(tmp_path, photos):
     document = coco([[FLAT], {"image_id": 99, "segmentation": [FLAT], "id": 4711}])
     found = is_right(imported(made.written(tmp_path / "a.json", document), photos))
