@@ -185,9 +185,6 @@ Operation: TypeAlias = Annotated[Edit | SetTag | SetStatus | Open, Field(discrim
 Logged: TypeAlias = Annotated[Operation | Undo | Redo, Field(discriminator="kind")]
 """Anything that is kept in the log."""
 
-EDIT: TypeAdapter[Edit] = TypeAdapter(Edit)
-"""Reads an edit from JSON."""
-
 LOGGED: TypeAdapter[Logged] = TypeAdapter(Logged)
 """Reads an operation from the log."""
 

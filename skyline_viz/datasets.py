@@ -28,6 +28,7 @@ from pathlib import Path
 from typing import Literal
 
 from skyline_viz.arrays import U8
+from skyline_viz.label_picture import label_size
 from skyline_viz.notes import note
 from skyline_viz.photo import PhotoError, find_photos, photo_size, read_photo_with_notes
 from skyline_viz.photo_files import find_unread
@@ -131,7 +132,8 @@ def open_dataset(
 ) -> Dataset:
     """Open a data set, or the folder in which a single one lies, and match photos with truths.
 
-    Looks at names and headers and reads no pixels. A photo without truth is fine. A truth without
+    Looks at names and headers and reads no pixels, but for masks of numbers that no photo has. A
+    photo without truth is fine. A truth without
     photo, or of another size than its photo, is left out and named in `Dataset.problems`. Hidden
     files are ignored.
 
@@ -363,7 +365,7 @@ def _misfit(photo: Path, truth: Path) -> str | None:
         if truth.suffix.lower() in SKYLINE_SUFFIXES:
             found, wanted = f"{truth_with_notes(truth).skyline.width} columns", f"{width}"
         else:
-            found, wanted = "{1}x{0} pixels".format(*photo_size(truth)), f"{width}x{height}"
+            found, wanted = "{1}x{0} pixels".format(*label_size(truth)), f"{width}x{height}"
     except (PhotoError, SkylineError):
         return None  # told when it is read
     return None if found.split()[0] == wanted else f"has {found}, and its photo {wanted}"

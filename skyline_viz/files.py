@@ -111,7 +111,7 @@ def read_at_most(path: Path, limit: int) -> bytes:
     Raises:
         OSError: It cannot be read, is no regular file or too large; ``strerror`` says which.
     """
-    with open(path, "rb", opener=_opened_at_once) as file:  # a path has no opener
+    with open(path, "rb", opener=opened_at_once) as file:  # a path has no opener
         kind = os.fstat(file.fileno())
         if not stat.S_ISREG(kind.st_mode):
             raise OSError(errno.EINVAL, "it is a pipe or a device, not a file", str(path))
@@ -121,6 +121,6 @@ def read_at_most(path: Path, limit: int) -> bytes:
         return file.read(limit)
 
 
-def _opened_at_once(path: str, flags: int) -> int:
+def opened_at_once(path: str, flags: int) -> int:
     """Open a file without waiting for the other end of a pipe."""
     return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))

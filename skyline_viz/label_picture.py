@@ -18,7 +18,7 @@ from PIL import Image
 from skyline_viz.arrays import U8, Bool
 from skyline_viz.memory import photo_limit
 from skyline_viz.orientation import orientation_in, orientation_of, upright_image
-from skyline_viz.photo import MIN_SIDE, PhotoError, reading
+from skyline_viz.photo import MIN_SIDE, PhotoError, photo_size, reading
 from skyline_viz.photo_kinds import kind_of
 from skyline_viz.png_chunks import clean_png, png_chunks
 from skyline_viz.quiet_pillow import QUIET, silence_libtiff
@@ -120,6 +120,18 @@ class _Opened:
     """The same as far as Pillow does not see to it."""
 
     notes: tuple[str, ...] = ()
+
+
+def label_size(path: str | os.PathLike[str]) -> tuple[int, int]:
+    """Height and width of a picture that is a label, also of one with numbers that no photo has.
+
+    Raises:
+        PhotoError: It cannot be read.
+    """
+    try:
+        return photo_size(path)
+    except PhotoError:
+        return read_label_picture(path).shape
 
 
 def _opened(file: BinaryIO, path: Path) -> _Opened:

@@ -3,10 +3,11 @@
 Nothing here decodes. A kind that is not read is refused by name, with what to do about it.
 """
 
-import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal
+
+from skyline_viz.files import opened_at_once
 
 PHOTO_SUFFIXES = frozenset(
     {".avif", ".bmp", ".dib", ".gif", ".heic", ".heif", ".hif", ".j2c", ".j2k", ".jfif", ".jp2"}
@@ -116,7 +117,7 @@ def why_unread(file: Path) -> str | None:
     if suffix.startswith(".sqlite"):
         return None  # to open and close a database would end the locks that this process has on it
     try:
-        with open(file, "rb", opener=_at_once) as opened:  # a path has no opener
+        with open(file, "rb", opener=opened_at_once) as opened:  # a path has no opener
             head = opened.read(16)
     except OSError:
         return None  # a folder, most likely
@@ -124,11 +125,6 @@ def why_unread(file: Path) -> str | None:
     webp = head[:4] == b"RIFF" and head[8:12] == b"WEBP"
     others = (b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n", b"GIF8", b"\0\0\0\x0cjP  ")
     return "not named as a photo is" if heif or webp or head.startswith(others) else None
-
-
-def _at_once(path: str, flags: int) -> int:
-    """Open a file without waiting for the other end of a pipe."""
-    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def left_out(files: Iterable[Path], within: Path) -> str | None:

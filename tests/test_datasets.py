@@ -604,3 +604,15 @@ def test_a_picture_that_is_no_truth_is_refused(tmp_path, pixels, reason):
         truth_of(tmp_path, pixels)
     assert str(caught.value).startswith(f"{tmp_path / 'masks' / 'a.png'} is no truth: ")
     assert str(caught.value).endswith(".")
+
+
+def test_a_mask_of_numbers_of_another_size_than_its_photo_is_named(tmp_path):
+    put(tmp_path / "images" / "a.png")
+    (tmp_path / "masks").mkdir()
+    for height, problems in ((HEIGHT, 0), (HEIGHT // 2, 1)):
+        mask = np.zeros((height, WIDTH), np.float32)
+        mask[height // 2 :] = 1
+        Image.fromarray(mask).save(tmp_path / "masks" / "a.tif")
+        dataset = sv.open_dataset(tmp_path)
+        assert len(dataset.problems) == problems
+        assert (dataset.items[0].truth_path is None) == bool(problems)

@@ -5,11 +5,12 @@ import json
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from pydantic import TypeAdapter
 
 from annotate import checkpoints, log
 from annotate.edits import EditError, Edits
 from annotate.log import LogError, State, folded
-from annotate.operations import EDIT, LOGGED, SetStatus, spoken
+from annotate.operations import LOGGED, Edit, SetStatus, spoken
 
 HEIGHT, WIDTH = 30, 40
 EMPTY = State(Edits(HEIGHT, WIDTH))
@@ -93,7 +94,7 @@ def known_to_version_1(kept):
         elif kind == "redo" and undone:
             done.append(undone.pop())
         elif kind not in ("undo", "redo", "tag", "status", "open"):
-            done.append(EDIT.validate_json(body))
+            done.append(TypeAdapter(Edit).validate_json(body))
             undone.clear()
     status = status or ("in progress" if edited else "to do")
     return tuple(done), tuple(undone), status, tuple(tags), seconds

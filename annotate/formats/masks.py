@@ -15,7 +15,7 @@ import numpy as np
 from annotate.formats.common import Entry, FormatError, Imported, check_size
 from annotate.formats.importing import Task
 from skyline_viz.datasets import TRUTH_FOLDERS
-from skyline_viz.label_picture import read_label_picture
+from skyline_viz.label_picture import label_size
 from skyline_viz.photo import PHOTO_SUFFIXES, PhotoError, photo_size, read_photo, write_photo
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.truths import truth_with_notes
@@ -115,17 +115,9 @@ def _read(files: Iterable[Path], task: Task) -> None:
     task.read_each(files, lambda file, photo: _line_of(file, photo, task))
 
 
-def _size_of(file: Path) -> tuple[int, int]:
-    """Height and width of a picture, also of one with numbers that no photo has."""
-    try:
-        return photo_size(file)
-    except PhotoError:
-        return read_label_picture(file).shape
-
-
 def _line_of(file: Path, photo: str, task: Task) -> Skyline:
     """The line of a picture; another size than the photo's is an error."""
-    size, wanted = _size_of(file), photo_size(task.photos / photo)
+    size, wanted = label_size(file), photo_size(task.photos / photo)
     if size != wanted:
         raise FormatError(
             f"{file} has {size[1]}x{size[0]} pixels, and {photo} {wanted[1]}x{wanted[0]}."
