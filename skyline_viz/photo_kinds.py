@@ -108,6 +108,8 @@ def unknown(path: Path) -> str:
 def why_unread(file: Path) -> str | None:
     """Why what looks like a picture is not taken; None for a photo, and for anything else."""
     suffix = file.suffix.lower()
+    if file.is_dir():
+        return None
     if _is_raw(file):
         return "raw files of cameras: develop them to JPEG or TIFF first"
     if suffix in _NOT_READ:
@@ -120,7 +122,7 @@ def why_unread(file: Path) -> str | None:
         with open(file, "rb", opener=opened_at_once) as opened:  # a path has no opener
             head = opened.read(16)
     except OSError:
-        return None  # a folder, most likely
+        return None
     heif = head[4:8] == b"ftyp" and head[8:12] in {*_HEIF_BRANDS, b"avif"}
     webp = head[:4] == b"RIFF" and head[8:12] == b"WEBP"
     others = (b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n", b"GIF8", b"\0\0\0\x0cjP  ")

@@ -440,7 +440,8 @@ def test_what_looks_like_a_picture_and_is_not_taken_is_found(tmp_path):
     (tmp_path / "gone.jpg").symlink_to(tmp_path / "nothing")
     (tmp_path / "words.txt").write_text("no picture")
     (tmp_path / "x.sqlite").write_bytes(picture.read_bytes())
-    (tmp_path / "folder").mkdir()
+    for name in ("folder", "folder.raw", "folder.psd"):
+        (tmp_path / name).mkdir()
     os.mkfifo(tmp_path / "pipe")
     assert [one.name for one in find_unread(tmp_path)] == [
         "a.jpg~",
