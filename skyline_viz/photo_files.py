@@ -33,7 +33,7 @@ def find_unread(folder: str | os.PathLike[str]) -> list[Path]:
     return sorted(
         file
         for file in Path(folder).iterdir()
-        if not file.name.startswith(".") and why_unread(file) is not None
+        if not file.name.startswith(".") and not file.is_dir() and why_unread(file) is not None
     )
 
 

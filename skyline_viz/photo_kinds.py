@@ -108,8 +108,6 @@ def unknown(path: Path) -> str:
 def why_unread(file: Path) -> str | None:
     """Why what looks like a picture is not taken; None for a photo, and for anything else."""
     suffix = file.suffix.lower()
-    if file.is_dir():
-        return None
     if _is_raw(file):
         return "raw files of cameras: develop them to JPEG or TIFF first"
     if suffix in _NOT_READ:
