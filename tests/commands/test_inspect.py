@@ -6,25 +6,10 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.cli import main
 from skyline_viz.viewer import entities
 from testing.recordings import Read, verify
 
 PHOTO = "hills/images/h0.png"
-
-
-@pytest.fixture
-def say(tmp_path, monkeypatch, capsys):
-    """Run a command line in an empty folder: status, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("CI", "1")
-
-    def run(*words):
-        status = main([str(word) for word in words])
-        said = capsys.readouterr()
-        return status, said.out, said.err
-
-    return run
 
 
 @pytest.fixture
