@@ -1,5 +1,8 @@
 """A folder of photos and a server over it, for tests of labelling."""
 
+import re
+import subprocess
+import sys
 import threading
 import time
 import uuid
@@ -69,3 +72,16 @@ def served(folder, **how):
     finally:
         server.should_exit = True
         thread.join()
+
+
+def started(folder):
+    """A server in a process of its own, and a client for it."""
+    words = [sys.executable, "-m", "annotate", "open", folder, "--no-browser", "--annotator", "ann"]
+    process = subprocess.Popen(
+        words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    for line in process.stdout:
+        if found := re.search(r"(http://127\.0\.0\.1:\d+)/\?token=(\S+)", line):
+            client = httpx.Client(base_url=found[1], headers={TOKEN_HEADER: found[2]}, timeout=20)
+            return process, client
+    raise AssertionError(process.stderr.read())
