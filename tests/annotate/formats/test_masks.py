@@ -12,7 +12,6 @@ from testing.exports import WIDTH, label, put
 from testing.imports import imported, is_right, said_about
 
 
-
 @pytest.mark.parametrize("kind", made.SAME)
 def test_masks_that_are_read_as_truths_are_imported(tmp_path, photos, kind):
     folder = tmp_path / "in"
