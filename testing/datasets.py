@@ -9,11 +9,7 @@ HEIGHT, WIDTH = 16, 24
 ROWS = np.arange(WIDTH) % 5 + 4
 SKYLINE = sv.Skyline(ROWS)
 PHOTO = np.full((HEIGHT, WIDTH, 3), (90, 120, 150), np.uint8)
-
-
 PHOTO[SKYLINE.to_mask(HEIGHT)] = (200, 210, 230)
-
-
 PAINTED = SKYLINE.to_painted(PHOTO, "red")
 MASK = np.where(SKYLINE.to_mask(HEIGHT), 0, 255).astype(np.uint8)
 NOISE = np.random.default_rng(0).integers(0, 256, (HEIGHT, WIDTH, 3), np.uint8)

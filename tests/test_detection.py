@@ -10,7 +10,7 @@ from skyline_viz.detector import Detector
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.score import score_at
 from skyline_viz.tensor import tensor_at
-from testing.mountains import BOTH, mountains, random_photo
+from testing.detections import BOTH, mountains, random_photo
 
 
 @pytest.fixture(scope="module")

@@ -18,7 +18,7 @@ from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import margins, path_tables
 from skyline_viz.skyline import Skyline
-from testing.mountains import BOTH, mountains, random_photo
+from testing.detections import BOTH, mountains, random_photo
 
 STEADY = settings(deadline=None, derandomize=True, max_examples=25)
 

@@ -12,7 +12,7 @@ from skyline_viz.cli import main
 from skyline_viz.diagnosis.causes import CAUSES
 from skyline_viz.rendering import render
 from testing import SAMPLES
-from testing.diagnosed import flat_truth, write_dataset
+from testing.detections import flat_truth, write_dataset
 
 
 @pytest.fixture(scope="module")

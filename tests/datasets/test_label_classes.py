@@ -9,7 +9,7 @@ from PIL import Image, ImageFilter
 from skyline_viz.datasets.truths import read_truth
 from skyline_viz.skyline import SkylineError
 from testing import label_files as made
-from testing.truths import said_about
+from testing.label_files import said_about
 
 FEW = settings(
     max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]

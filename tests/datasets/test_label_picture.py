@@ -9,7 +9,7 @@ from skyline_viz.datasets.truths import read_truth, truth_with_notes
 from skyline_viz.photo import read_photo
 from skyline_viz.skyline import SkylineError
 from testing import label_files as made
-from testing.truths import said_about
+from testing.label_files import said_about
 
 
 def test_an_image_that_is_turned_is_read_upright(tmp_path):

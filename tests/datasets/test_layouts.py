@@ -10,6 +10,7 @@ from PIL import Image
 import skyline_viz as sv
 from skyline_viz import photo
 from skyline_viz.datasets import layouts as datasets
+from skyline_viz.datasets import matching
 from skyline_viz.datasets.layouts import DatasetError
 from testing.datasets import (
     HEIGHT,
@@ -313,7 +314,7 @@ def test_a_folder_that_may_not_be_listed(tmp_path, monkeypatch):
     def closed(folder):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(datasets, "_folders", closed)
+    monkeypatch.setattr(datasets, "folders_in", closed)
     with pytest.raises(DatasetError, match="cannot be read: permission denied"):
         sv.open_dataset(tmp_path)
 
@@ -328,7 +329,8 @@ def test_a_closed_folder_inside_does_not_stop_the_rest(tmp_path, monkeypatch):
             raise PermissionError(13, "Permission denied")
         return find(folder)
 
-    monkeypatch.setattr(datasets, "find_photos", guarded)
+    for module in (datasets, matching):
+        monkeypatch.setattr(module, "find_photos", guarded)
     monkeypatch.setattr(os, "access", lambda path, mode: path.name != "lost+found")
     assert names(sv.open_dataset(tmp_path)) == ["a"]
 

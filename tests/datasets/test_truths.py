@@ -23,7 +23,7 @@ from testing.datasets import (
     only,
     put,
 )
-from testing.truths import said_about
+from testing.label_files import said_about
 
 FEW = settings(
     max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]

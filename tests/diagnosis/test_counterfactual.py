@@ -10,7 +10,7 @@ from skyline_viz.diagnosis.counterfactual import Case
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
-from testing.diagnosed import flat_truth
+from testing.detections import flat_truth
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from skyline_viz.diagnosis.diagnosing import diagnose, failing_runs
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline, SkylineError
 from testing import SAMPLES
-from testing.diagnosed import flat_truth, lines_in_the_sky, write_dataset
+from testing.detections import flat_truth, lines_in_the_sky, write_dataset
 from testing.injected import MAKERS, cases, main_cause
 
 EACH = 6

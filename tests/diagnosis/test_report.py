@@ -10,7 +10,7 @@ from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.diagnosis.report import Diagnosed, settings_to_try, try_remedies, write_csv
 from skyline_viz.diagnosis.report import _broken as broken
 from skyline_viz.rendering import render
-from testing.diagnosed import flat_truth
+from testing.detections import flat_truth
 
 
 @pytest.fixture(scope="module")

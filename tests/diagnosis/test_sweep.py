@@ -11,8 +11,7 @@ from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
 from skyline_viz.training import train
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.sweep_recording import log_sweeps
-from testing.recordings import Read, verify
-from tests.viewer.test_recording import scene
+from testing.recordings import Read, scene, verify
 
 SETTINGS = ("canny_thresholds", "v", "delta", "link_weight")
 CONFIGS = {
