@@ -3,11 +3,13 @@
 import cv2
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from PIL import Image
 
-from skyline_viz.photo import (
-    read_photo,
-)
+from skyline_viz.photo import read_photo, read_photo_with_notes
+from skyline_viz.picture_files.pixel_depth import white_of
+from testing import photo_files
 from testing.pictures import NOISE, close, refusal
 
 
@@ -39,3 +41,31 @@ def test_a_pgm_of_10_bits_fills_the_range(tmp_path):
 def test_floating_point_pixels_are_refused(tmp_path):
     Image.fromarray(np.zeros((16, 16), np.float32)).save(tmp_path / "a.tif")
     assert "floating-point" in refusal(tmp_path / "a.tif")
+
+
+PHOTO, ROWS = photo_files.scene()
+
+
+@pytest.mark.parametrize("name", ["16.png", "12.png", "10.tif", "12_deflate.tif", "linear.png"])
+def test_depths_come_back_as_they_were(tmp_path, name):
+    photo_files.READ[name](tmp_path / name, PHOTO)
+    assert np.abs(read_photo(tmp_path / name).astype(int) - PHOTO).max() <= 2
+
+
+@given(st.integers(0, 65535), st.sampled_from([None, 1023, 4095, 65535]))
+def test_white_holds_every_sample_and_a_guess_is_noted(brightest, said):
+    white, note = white_of(np.array([0, brightest], np.uint16), said)
+    assert white >= brightest
+    assert white in (255, 1023, 4095, 16383, 65535)
+    assert (note is None) == (white in (said, 65535))
+
+
+def test_a_dark_photo_of_16_bits_that_says_so_stays_dark(tmp_path):
+    path = tmp_path / "a.png"
+    bits = photo_files.chunk(b"sBIT", bytes([16]))
+    photo_files.deep(12, "png", colour=False)(path, PHOTO)
+    data = path.read_bytes()
+    path.write_bytes(data[:33] + bits + data[33:])
+    photo, notes = read_photo_with_notes(path)
+    assert photo.max() < 16
+    assert notes == ()

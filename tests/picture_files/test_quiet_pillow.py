@@ -1,5 +1,7 @@
 """Pillow without its global limit and its warnings."""
 
+import subprocess
+import sys
 import threading
 import warnings
 
@@ -9,6 +11,7 @@ from skyline_viz.photo import (
     PhotoError,
     read_photo,
 )
+from testing import photo_files
 from testing.pictures import NOISE, refusal, save
 
 
@@ -42,3 +45,16 @@ def test_readers_in_threads_leave_pillow_and_warnings_as_they_were(tmp_path):
     assert failures == []
     assert limit == Image.MAX_IMAGE_PIXELS
     assert warnings.filters == filters
+
+
+def test_libtiff_does_not_speak_on_the_screen(tmp_path):
+    path = tmp_path / "a.tif"
+    Image.fromarray(photo_files.scene()[0]).save(path, compression="tiff_lzw")
+    data = bytearray(path.read_bytes())
+    data[200:2000] = bytes(1800)
+    path.write_bytes(data)
+    code = (
+        f"from skyline_viz.photo import *\ntry: read_photo({str(path)!r})\nexcept PhotoError: pass"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
+    assert (done.stdout, done.stderr) == (b"", b"")
