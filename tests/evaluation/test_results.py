@@ -12,7 +12,7 @@ from skyline_viz.evaluation.results import PhotoResult, Summary, worst
 
 def result(name="a", error=0.0, **changes):
     """A result whose figures are made up."""
-    plain = PhotoResult.of(name, sv.Skyline([4]), sv.Skyline([4]), height=9, seconds=0.1)
+    plain = PhotoResult.of(name, sv.Skyline([4]), sv.Skyline([4]), height=9, seconds=0.5)
     return replace(plain, a_err=error, **changes)
 
 
