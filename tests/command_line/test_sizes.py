@@ -6,7 +6,7 @@ from skyline_viz.command_line import sizes
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.sizes import foresee, limit, pixels_of, say_too_large
 from skyline_viz.datasets.layouts import DatasetItem
-from skyline_viz.system.memory import needed, photo_limit
+from skyline_viz.system.memory import SHARE, needed, photo_limit
 from testing.pictures import NOISE, save
 
 
@@ -65,6 +65,6 @@ def test_what_does_not_fit_into_memory_is_said(
 
 def test_where_the_workers_are_ours_to_choose_there_are_fewer(items, monkeypatch, capsys):
     monkeypatch.setattr("skyline_viz.running.batch.chosen_workers", lambda *_: 4)
-    monkeypatch.setattr(sizes, "available", lambda: 3 * needed(768, sizes.DETECTING))
-    assert foresee(items) == 3
-    assert "so there are 3 workers and not 4." in capsys.readouterr().err
+    monkeypatch.setattr(sizes, "available", lambda: int(2.5 * needed(768, sizes.DETECTING) / SHARE))
+    assert foresee(items, workers=0) == 2
+    assert "so there are 2 workers and not 4." in capsys.readouterr().err

@@ -1,6 +1,7 @@
 """Networks from ONNX files: what the file says goes in and comes out."""
 
 import pickle
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -67,8 +68,9 @@ def test_a_network_runs_and_an_input_that_does_not_fit_is_a_sentence():
     assert bright[0, 0, 4, 4] > 0.99
     with pytest.raises(MethodError, match=r"n\.onnx cannot be run: "):
         network.run(np.ones((1, 3, 2, 2, 2, 9), np.float32))
+    network._net = SimpleNamespace(setInput=lambda *_: None, forward=lambda _: np.array([np.nan]))
     with pytest.raises(MethodError, match="no finite numbers"):
-        network.run(np.full((1, 3, 8, 9), np.nan, np.float32))
+        network.run(np.ones((1, 3, 8, 9), np.float32))
 
 
 class Holder(HoldsNetwork):
