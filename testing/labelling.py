@@ -4,7 +4,6 @@ import re
 import subprocess
 import sys
 import threading
-import time
 import uuid
 from contextlib import contextmanager
 
@@ -19,6 +18,7 @@ from annotate.store.store import Store
 from annotate.work.workbench import Assignment, Workbench
 from skyline_viz.detector import Detector
 from skyline_viz.photo import write_photo
+from testing import until
 
 TOKEN = "a-token-for-tests"
 DETECTOR = Detector()
@@ -66,8 +66,7 @@ def served(folder, **how):
         with httpx.Client(
             base_url=f"http://127.0.0.1:{port}", headers={TOKEN_HEADER: TOKEN}, timeout=30
         ) as client:
-            while not server.started:
-                time.sleep(0.01)
+            until(lambda: server.started)
             yield client
     finally:
         server.should_exit = True

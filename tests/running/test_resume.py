@@ -15,7 +15,8 @@ from skyline_viz.cli import main
 from skyline_viz.evaluation import cross_validation as evaluation
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import FOLDER, Codec, Kept
-from testing.ends import started, until, write_set
+from testing import until
+from testing.ends import started, write_set
 
 PHOTOS = 6
 COMMANDS = {

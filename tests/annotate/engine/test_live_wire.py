@@ -12,6 +12,7 @@ from annotate.engine.live_wire import LiveWire
 from skyline_viz.constraints import Anchor, Constraints, PathError
 from skyline_viz.detector import Detector
 from skyline_viz.path import path_tables, shortest_path
+from skyline_viz.uncertainty import APART
 
 DETECTOR = Detector()
 CONFIG = DETECTOR.config
@@ -235,3 +236,22 @@ def test_edits_that_make_no_sense_are_one_sentence(photo, ask, sentence):
         ask(wire)
     assert str(refused.value).endswith(".")
     assert wire.edits == Edits(48, 70)
+
+
+@pytest.mark.parametrize("height", [60, 1300])
+def test_alternatives_lie_apart_and_cost_what_they_say(height):
+    photo = np.random.default_rng(1).integers(0, 256, (height, 40, 3), np.uint8)
+    wire = LiveWire(photo, DETECTOR)
+    least = max(APART, height // 100)
+    for column in (0, 17, 39):
+        found = wire.alternatives(column)
+        assert len(found) == 4
+        rows = sorted([int(wire.skyline.rows[column]), *(one.row for one in found)])
+        assert min(np.diff(rows)) > least
+        detours = [one.detour for one in found]
+        assert detours == sorted(detours)
+        cost = DETECTOR.detect(photo).cost
+        for one in found[:2]:
+            line = wire.preview(column, one.row).rows
+            dearer = cost_of(line, cost) - cost_of(wire.skyline.rows, cost)
+            assert one.detour == pytest.approx(dearer, abs=1e-3)

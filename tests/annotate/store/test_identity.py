@@ -17,6 +17,7 @@ from annotate.formats import FORMATS, import_labels
 from annotate.store.identity import pixel_digest
 from annotate.store.operations import Open
 from skyline_viz.photo import read_photo
+from testing import until
 from testing.edited_photos import replaced, with_comment, with_place, write_jpegs
 from testing.labelling import served, workbench
 from testing.labels import label_named, rows_of, run, statuses
@@ -197,8 +198,7 @@ def test_learning_takes_photos_that_are_there(tmp_path):
     with served(folder) as page:
         replaced(folder / "hill-1.jpg", seed=70)
         page.post("/api/learn", json={})
-        while (answer := page.get("/api/learn").json())["state"] == "running":
-            pass
+        answer = until(lambda: (now := page.get("/api/learn").json())["state"] != "running" and now)
     assert answer["detail"] == "learning needs 10 accepted photos, and there are 9."
 
 

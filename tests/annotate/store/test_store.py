@@ -6,7 +6,7 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import skyline_viz.files as files
@@ -35,6 +35,7 @@ def anchor(store, label, column, row=5):
 
 
 @settings(max_examples=30, deadline=None)
+@example(["edit", "undo", "edit", "redo"])
 @given(st.lists(st.sampled_from(["edit", "undo", "redo", "tag", "open"]), max_size=30))
 def test_undo_and_redo_are_a_cursor_in_the_log(tmp_path_factory, asked):
     folder = tmp_path_factory.mktemp("log")

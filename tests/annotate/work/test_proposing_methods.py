@@ -9,6 +9,7 @@ from annotate.work.learning import LEAST, Learner
 from skyline_viz.method import MethodError
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.methods.gradient import GradientCost
+from testing import until
 from testing.labelling import served, workbench, write_hills
 
 
@@ -53,8 +54,7 @@ def test_learning_on_the_way_is_for_our_detector(tmp_path):
         bench.session(photo).apply(SetStatus(status="accepted"), -1)
     learner = Learner(bench)
     learner.start()
-    while learner.now().state == "running":
-        pass
+    until(lambda: learner.now().state != "running")
     assert learner.now().state == "failed"
     assert "the method gradient proposes here" in learner.now().detail
     bench.close()
