@@ -7,7 +7,7 @@ from dataclasses import FrozenInstanceError, replace
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.bins import Bins
@@ -21,8 +21,9 @@ from skyline_viz.path import margins, path_tables
 from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
 from skyline_viz.tensor import tensor_at
+from testing.examples import examples
 
-STEADY = settings(deadline=None, derandomize=True, max_examples=25)
+STEADY = examples(25)
 CONFIGS = {"default": DetectorConfig(), "paper": DetectorConfig.paper()}
 BOTH = pytest.mark.parametrize("config", CONFIGS.values(), ids=CONFIGS)
 

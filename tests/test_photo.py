@@ -9,7 +9,7 @@ import zlib
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
@@ -22,6 +22,7 @@ from skyline_viz.photo import (
     write_photo,
 )
 from skyline_viz.picture_files.listing import find_unread
+from testing.examples import examples
 
 # A picture that survives JPEG: 16x16 blocks of one colour, no two rotations of it alike.
 BLOCKS = np.array(
@@ -245,7 +246,7 @@ def test_what_is_no_photo_is_refused(tmp_path, content):
     refusal(tmp_path / "a.jpg")
 
 
-@settings(deadline=None, max_examples=40)
+@examples(40)
 @given(
     data=st.binary(min_size=1, max_size=200),
     start=st.sampled_from(

@@ -5,7 +5,7 @@ import os
 import numpy as np
 import pytest
 import tifffile
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 from PIL import Image, ImageFilter
 
@@ -15,10 +15,9 @@ from skyline_viz.photo import read_photo
 from skyline_viz.picture_files.orientation import upright, upright_image
 from skyline_viz.skyline import Skyline, SkylineError
 from testing import label_files as made
+from testing.examples import examples
 
-FEW = settings(
-    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+FEW = examples(40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 def said_about(path, **options):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 from pycocotools import mask as coco_mask
 from pycocotools.coco import COCO
@@ -19,14 +19,13 @@ from annotate.store.labels import TAGS, Label
 from skyline_viz.datasets.layouts import open_dataset
 from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline
+from testing.examples import examples
 
 HEIGHT, WIDTH = 16, 24
 KEEP_VISIBLE = ("painted", "csv", "json", "labelme", "cvat")
 KEEP_TAGS = ("json", "labelme", "cvat")
 EVERY = pytest.mark.parametrize("kind", list(FORMATS))
-FEW = settings(
-    max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+FEW = examples(25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 def put(folder, name, height=HEIGHT, width=WIDTH, seed=0):

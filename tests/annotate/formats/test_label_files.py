@@ -6,7 +6,7 @@ import shutil
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from annotate.formats import FORMATS, FormatError, documents, export_labels, import_labels
@@ -16,12 +16,11 @@ from annotate.store.labels import Label
 from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline
 from testing import label_files as made
+from testing.examples import examples
 from testing.label_documents import FLAT, LAYOUTS, LEFT, OUTLINE, READ, RIGHT, SAID
 from testing.label_files import HEIGHT, NAME, ROWS, SKY, SKYLINE, WIDTH, coco, labelme, shape
 
-FEW = settings(
-    max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+FEW = examples(30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 @pytest.fixture
@@ -297,7 +296,7 @@ NAMES = st.text(
 ).filter(lambda name: not name.startswith(".") and len(name.encode()) < 100)
 
 
-@settings(FEW, max_examples=15)
+@examples(15, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_exports_come_back_whatever_the_photos_are_called(tmp_path, data):
     root = tmp_path / str(random.random())

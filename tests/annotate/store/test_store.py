@@ -7,7 +7,7 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import annotate.store.database as database
@@ -18,6 +18,7 @@ from annotate.store.lines import Line
 from annotate.store.operations import SetAnchor, SetStatus
 from annotate.store.store import StaleError, Store
 from skyline_viz.skyline import Skyline
+from testing.examples import examples
 from testing.labelling import DETECTOR, workbench, write_hills
 
 LINE = Line(Skyline(rows=[3, 4, 9]), np.array([0, 1, 3], np.uint8))
@@ -56,7 +57,7 @@ def test_a_line_of_a_photograph_takes_a_few_hundred_bytes():
     assert len(line.packed()) < 1000
 
 
-@settings(max_examples=30, deadline=None)
+@examples(30)
 @given(st.lists(st.sampled_from(["edit", "undo", "redo", "tag", "open"]), max_size=30))
 def test_undo_and_redo_are_a_cursor_in_the_log(tmp_path_factory, asked):
     folder = tmp_path_factory.mktemp("log")
