@@ -44,8 +44,33 @@ def pytest_make_collect_report(collector):
         return None
     if (package := missing(collector.path)) is None:
         return None
-    reason = f"Skipped: not run, {package} of {OPTIONAL[package]} is not installed"
-    return pytest.CollectReport(collector.nodeid, "skipped", (str(collector.path), 1, reason), [])
+    where = (str(collector.path), 1, not_run(package))
+    return pytest.CollectReport(collector.nodeid, "skipped", where, [])
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """Name a test as not run when it fails for want of an optional package."""
+    report = yield
+    error = call.excinfo and call.excinfo.value
+    while report.failed and error is not None:
+        package = (getattr(error, "name", None) or "").partition(".")[0]
+        if isinstance(error, ModuleNotFoundError) and absent(package):
+            path, line, _ = item.location
+            report.outcome, report.longrepr = "skipped", (path, line, not_run(package))
+        error = error.__cause__ or error.__context__
+    return report
+
+
+def not_run(package):
+    """What is said of a test or a module that an absent package keeps from running."""
+    return f"Skipped: not run, {package} of {OPTIONAL[package]} is not installed"
+
+
+@cache
+def absent(package):
+    """Whether an optional package is not installed."""
+    return package in OPTIONAL and find_spec(package) is None
 
 
 @cache
@@ -53,7 +78,7 @@ def missing(path):
     """The first optional package without which a file of ours cannot be imported; None if none."""
     for name in imported(path):
         package = name.partition(".")[0]
-        if package in OPTIONAL and find_spec(package) is None:
+        if absent(package):
             return package
         if package in OURS and (ours := source(name)) and (found := missing(ours)):
             return found
