@@ -7,7 +7,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.bins import Bins
@@ -19,8 +19,9 @@ from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import margins, path_tables
 from skyline_viz.skyline import Skyline
 from testing.detections import BOTH, mountains, random_photo
+from testing.examples import examples
 
-STEADY = settings(deadline=None, derandomize=True, max_examples=25)
+STEADY = examples(25)
 
 STAGES = ("skyline", "edges", "edge_rows", "edge_columns", "strength", "coherence")
 STAGES += ("orientation", "bins", "scores", "cost", "path_cost", "thresholds")

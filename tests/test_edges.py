@@ -3,13 +3,14 @@
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.config import DetectorConfig
 from skyline_viz.edges import FRAME_SHARE, candidate_edges, edge_pixels, fitted_thresholds, to_grey
+from testing.examples import examples
 
-STEADY = settings(deadline=None, derandomize=True, max_examples=60)
+STEADY = examples(60)
 SOURCES = pytest.mark.parametrize("source", ["grey", "colour"])
 
 

@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
@@ -15,6 +15,7 @@ from skyline_viz.photo import (
     read_photo,
     write_photo,
 )
+from testing.examples import examples
 from testing.pictures import (
     EVERY_FORMAT,
     LOSSLESS,
@@ -105,7 +106,7 @@ def test_what_is_no_photo_is_refused(tmp_path, content):
     refusal(tmp_path / "a.jpg")
 
 
-@settings(deadline=None, max_examples=40)
+@examples(40)
 @given(
     data=st.binary(min_size=1, max_size=200),
     start=st.sampled_from(

@@ -2,18 +2,17 @@
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 from PIL import Image, ImageFilter
 
 from skyline_viz.datasets.truths import read_truth
 from skyline_viz.skyline import SkylineError
 from testing import label_files as made
+from testing.examples import examples
 from testing.label_files import said_about
 
-FEW = settings(
-    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+FEW = examples(40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import shutil
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 from PIL import Image
 
@@ -19,11 +19,10 @@ from testing.datasets import (
     only,
     put,
 )
+from testing.examples import examples
 from testing.label_files import said_about
 
-FEW = settings(
-    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+FEW = examples(40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 @FEW

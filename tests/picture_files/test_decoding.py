@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import skyline_viz as sv
 from skyline_viz.photo import photo_size, read_photo, read_photo_with_notes
 from testing import photo_files
+from testing.examples import examples
 
 PHOTO, ROWS = photo_files.scene()
 
@@ -42,7 +43,7 @@ def test_what_is_not_read_is_refused_by_name(tmp_path, name, capfd):
     assert capfd.readouterr() == ("", "")
 
 
-@settings(deadline=None, max_examples=150)
+@examples(150)
 @given(
     name=st.sampled_from(sorted(photo_files.READ)),
     places=st.lists(st.tuples(st.floats(0, 1), st.integers(0, 255)), min_size=1, max_size=6),

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from annotate.engine.edits import ORIGINS, EditError, Edits
@@ -13,6 +13,7 @@ from skyline_viz.constraints import Anchor, Constraints, PathError
 from skyline_viz.detector import Detector
 from skyline_viz.path import path_tables, shortest_path
 from skyline_viz.uncertainty import APART
+from testing.examples import examples
 
 DETECTOR = Detector()
 CONFIG = DETECTOR.config
@@ -54,7 +55,7 @@ def test_the_proposal_is_the_detection(photo):
     assert set(wire.origin) == {ORIGINS.index("proposal")}
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(st.data())
 def test_every_line_is_the_cheapest_under_its_anchors(data):
     photo = hills(data.draw(st.integers(0, 4)))

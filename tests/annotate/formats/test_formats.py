@@ -6,20 +6,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 import annotate.formats as formats
 from annotate.formats import FORMATS, FormatError, export_labels, import_labels
 from annotate.store.labels import TAGS, Label
+from testing.examples import examples
 from testing.exports import FILE, HEIGHT, WIDTH, label, put, refused, there_and_back, without_line
 
 KEEP_VISIBLE = ("painted", "csv", "json", "labelme", "cvat")
 KEEP_TAGS = ("json", "labelme", "cvat")
 EVERY = pytest.mark.parametrize("kind", list(FORMATS))
-FEW = settings(
-    max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+FEW = examples(25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 @pytest.fixture

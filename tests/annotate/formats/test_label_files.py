@@ -4,19 +4,18 @@ import json
 import random
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from annotate.formats import FormatError
 from skyline_viz.photo import write_photo
 from testing import label_files as made
+from testing.examples import examples
 from testing.imports import imported, is_right, said_about
 from testing.label_documents import FLAT, READ, SAID
 from testing.label_files import HEIGHT, NAME, WIDTH, coco
 
-FEW = settings(
-    max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+FEW = examples(30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 # What is read

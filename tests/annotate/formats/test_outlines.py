@@ -2,17 +2,16 @@
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from annotate.formats.outlines import polygon_mask
 from testing import label_files as made
+from testing.examples import examples
 from testing.imports import imported, said_about
 from testing.label_files import WIDTH, coco, labelme, shape
 
-FEW = settings(
-    max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+FEW = examples(30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import random
 import shutil
 
 import numpy as np
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from annotate.formats import FORMATS, export_labels, import_labels
@@ -13,13 +13,12 @@ from annotate.store.labels import Label
 from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline
 from testing import label_files as made
+from testing.examples import examples
 from testing.imports import imported, is_right, said_about
 from testing.label_documents import FLAT, LEFT, RIGHT
 from testing.label_files import NAME, SKYLINE, coco
 
-FEW = settings(
-    max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+FEW = examples(30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 def test_files_of_no_photo_are_named(tmp_path, photos):
@@ -56,7 +55,7 @@ NAMES = st.text(
 ).filter(lambda name: not name.startswith(".") and len(name.encode()) < 100)
 
 
-@settings(FEW, max_examples=15)
+@examples(15)
 @given(data=st.data())
 def test_exports_come_back_whatever_the_photos_are_called(tmp_path, data):
     root = tmp_path / str(random.random())

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from annotate.engine.edits import Edits
@@ -11,6 +11,7 @@ from annotate.store import checkpoints
 from annotate.store import history as log
 from annotate.store.history import LogError, folded
 from annotate.store.operations import LOGGED, SetStatus, spoken
+from testing.examples import examples
 from testing.logs import (
     EMPTY,
     HEIGHT,
@@ -24,7 +25,7 @@ from testing.logs import (
 )
 
 
-@settings(max_examples=300, deadline=None)
+@examples(300)
 @given(logs(edits, others, old_moves))
 def test_old_logs_keep_their_meaning(kept):
     state = folded(EMPTY, kept)
@@ -78,7 +79,7 @@ class Snapshots:
 def test_undo_goes_back_through_edits_and_statuses(remembered, monkeypatch):
     monkeypatch.setattr(log, "_REMEMBERED", remembered)
 
-    @settings(max_examples=200, deadline=None)
+    @examples(200)
     @given(logs(edits, others, new_moves, new_moves))
     def check(kept):
         state, expected = EMPTY, Snapshots()
@@ -95,7 +96,7 @@ def test_undo_goes_back_through_edits_and_statuses(remembered, monkeypatch):
     check()
 
 
-@settings(max_examples=200, deadline=None)
+@examples(200)
 @given(logs(edits, others, old_moves, new_moves), st.integers(0, 60))
 def test_a_checkpoint_and_the_rest_are_the_whole_log(kept, cut):
     whole = folded(EMPTY, kept)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 import annotate.store.identity as identity
@@ -19,6 +19,7 @@ from annotate.store.operations import Open
 from skyline_viz.photo import read_photo
 from testing import until
 from testing.edited_photos import replaced, with_comment, with_place, write_jpegs
+from testing.examples import examples
 from testing.labelling import served, workbench
 from testing.labels import label_named, rows_of, run, statuses
 
@@ -233,9 +234,7 @@ def test_opening_a_folder_decodes_nothing(tmp_path, monkeypatch):
 CHANGES = st.sampled_from(["comment", "replace", "rename", "swap", "delete", "copy", "back"])
 
 
-@settings(
-    max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@examples(25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(changes=st.lists(st.tuples(CHANGES, st.integers(0, 2), st.booleans()), max_size=8))
 def test_a_label_leaves_only_with_the_pixels_it_was_made_on(tmp_path_factory, changes):
     folder = write_jpegs(tmp_path_factory.mktemp("photos") / "alps")

@@ -6,7 +6,7 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import skyline_viz.files as files
@@ -16,6 +16,7 @@ from annotate.store.lines import Line
 from annotate.store.operations import SetAnchor, SetStatus
 from annotate.store.store import StaleError, Store
 from skyline_viz.skyline import Skyline
+from testing.examples import examples
 from testing.labelling import DETECTOR, workbench, write_hills
 
 LINE = Line(Skyline(rows=[3, 4, 9]), np.array([0, 1, 3], np.uint8))
@@ -34,7 +35,7 @@ def anchor(store, label, column, row=5):
     return store.append(label, -1, "anchor", body, LINE)
 
 
-@settings(max_examples=30, deadline=None)
+@examples(30)
 @example(["edit", "undo", "edit", "redo"])
 @given(st.lists(st.sampled_from(["edit", "undo", "redo", "tag", "open"]), max_size=30))
 def test_undo_and_redo_are_a_cursor_in_the_log(tmp_path_factory, asked):

@@ -5,7 +5,7 @@ import sqlite3
 from contextlib import closing
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from annotate.formats import FormatError, import_labels
@@ -13,6 +13,7 @@ from annotate.formats.whole import MOST_OPERATIONS
 from annotate.store.database import NAME
 from annotate.store.store import Store
 from annotate.work.importing import checked
+from testing.examples import examples
 from testing.labelling import served, write_hills
 from testing.labels import POISON, label, poisoned, run
 
@@ -263,9 +264,7 @@ TIMED = st.builds(
 )
 
 
-@settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@examples(60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(logs=st.lists(st.lists(TIMED, max_size=6), min_size=2, max_size=2))
 def test_no_log_makes_a_label_that_cannot_be_read(document, tmp_path_factory, logs):
     folder = write_hills(tmp_path_factory.mktemp("any") / "alps", count=2)
