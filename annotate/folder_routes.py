@@ -8,14 +8,19 @@ from fastapi import APIRouter, HTTPException, Query, Response
 
 from annotate.dependencies import Bench, TheLearner
 from annotate.formats import FORMATS, archive
-from annotate.labels import TAGS
-from annotate.messages import Learning, Nothing, PhotoList, Sheet, ShownPhoto, ShownProgress
+from annotate.messages import Learning, Legend, Nothing, PhotoList, Sheet, ShownPhoto, ShownProgress
 from annotate.store import Card
 from annotate.workbench import Workbench
 
 router = APIRouter()
 
 _SHEET = 24  # strips a page
+
+
+@router.get("/legend")
+def legend() -> Legend:
+    """Words and colours that are the same for every photo."""
+    return Legend.made()
 
 
 @router.get("/photos")
@@ -27,7 +32,6 @@ def photos(bench: Bench) -> PhotoList:
         folder=bench.store.folder.resolve().name,
         annotator=who.annotator,
         number=who.number,
-        tags=TAGS,
         photos=_shown(bench, cards),
         progress=ShownProgress.of(bench.progress(cards)),
     )

@@ -1,0 +1,26 @@
+/** Rules for the labelling page's JavaScript and its tests. */
+
+import js from "@eslint/js";
+import globals from "globals";
+
+const SENSIBLE = {
+  "max-lines": ["error", { max: 250, skipComments: true, skipBlankLines: true }],
+  complexity: ["error", 9],
+  eqeqeq: ["error", "always"],
+  "no-var": "error",
+  "prefer-const": "error",
+  "no-shadow": ["error", { builtinGlobals: false }],
+  "no-implicit-coercion": "error",
+  "no-unused-expressions": "error",
+  "no-throw-literal": "error",
+  "object-shorthand": "error",
+  "consistent-return": "off", // tsc sees more
+};
+
+export default [
+  js.configs.recommended,
+  { linterOptions: { reportUnusedDisableDirectives: "error" }, rules: SENSIBLE },
+  { files: ["**/static/**/*.js"], languageOptions: { globals: globals.browser } },
+  { files: ["**/tests/**/*.mjs", "**/tools/**/*.js"], languageOptions: { globals: globals.node } },
+  { files: ["**/static/**/*.js"], rules: { "no-restricted-globals": ["error", "event", "name", "find"] } },
+];
