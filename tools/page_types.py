@@ -6,9 +6,10 @@ The page's JavaScript is checked against these types, and a test holds them to t
 import json
 from pathlib import Path
 
-from pydantic.json_schema import models_json_schema
+from pydantic import TypeAdapter
 
-from annotate import messages
+from annotate.server import messages
+from annotate.work.learning import Learning
 
 PLACE = Path(__file__).parents[1] / "annotate" / "static" / "types.d.ts"
 """Where the types are."""
@@ -22,7 +23,7 @@ ANSWERED = (
     messages.Margins,
     messages.Alternatives,
     messages.Sheet,
-    messages.Learning,
+    Learning,
 )
 
 _HEAD = """\
@@ -38,9 +39,14 @@ _PLAIN["null"] = "null"
 
 def types():
     """All types, as the text of a declaration file."""
-    modes = [(model, "validation") for model in ASKED]
-    modes += [(model, "serialization") for model in ANSWERED]
-    _, schema = models_json_schema(modes)
+    modes = {"validation": ASKED, "serialization": ANSWERED}
+    _, schema = TypeAdapter.json_schemas(
+        [
+            (model.__name__, mode, TypeAdapter(model))
+            for mode, models in modes.items()
+            for model in models
+        ]
+    )
     found = schema["$defs"]
     named = {
         "Operation": ("Anything that the page does to a photo", found["Apply"], "operation"),

@@ -72,7 +72,7 @@ export interface Hide {
 
 /** How far learning from the labels is. */
 export interface Learning {
-  state: string;
+  state: "idle" | "running" | "done" | "failed";
   detail: string;
   changed: number;
 }

@@ -14,10 +14,10 @@ import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, Bool
-from skyline_viz.datasets import DatasetItem
+from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.edges import to_grey
+from skyline_viz.method import Model, shown_to_learners
 from skyline_viz.methods.extras import needed
-from skyline_viz.methods.protocol import Model, shown_to_learners
 from skyline_viz.methods.score_images import (
     BEFORE,
     LEAST_DEVIATION,
@@ -43,7 +43,7 @@ class SvmScores(DenseScores):
         return "svm-dcsi"
 
     def learn(self, items: Sequence[DatasetItem], seed: int) -> Model:
-        """See `protocol.Learner.fit`; needs scikit-learn."""
+        """See `method.Learner.fit`; needs scikit-learn."""
         svm = needed("sklearn.svm", "methods", self.name)
         linear = needed("sklearn.linear_model", "methods", self.name)
         forms: list[F32] = []
