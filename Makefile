@@ -1,6 +1,6 @@
 .PHONY: demo test check bench reliability pictures samples lock clean
 
-SOURCES = pyproject.toml requirements-dev.txt tools/setup.sh
+SOURCES = pyproject.toml requirements-dev.txt tools/setup.sh tools/page/package-lock.json
 
 demo: .venv/.installed-run  ## Find the skylines of the samples, or of PHOTOS=FOLDER, and show them.
 	.venv/bin/skyline-viz demo $(if $(PHOTOS),"$(PHOTOS)")
@@ -13,6 +13,7 @@ check: .venv/.installed-dev  ## Lint and types only.
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
 	.venv/bin/lint-imports
+	PATH="$(CURDIR)/.venv/bin:$$PATH" npm run --prefix tools/page --silent check
 
 bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the folder of the real data sets.
 	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)")
@@ -35,7 +36,7 @@ lock: .venv/.installed-dev  ## Renew the locked development set.
 	    --no-emit-index-url --no-header --output-file requirements-dev.txt
 
 clean:
-	rm -rf .venv build dist skyline-demo skyline-gallery
+	rm -rf .venv tools/page/node_modules build dist skyline-demo skyline-gallery
 
 .venv/.installed-run: $(SOURCES)
 	tools/setup.sh run

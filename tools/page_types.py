@@ -33,8 +33,7 @@ _HEAD = """\
  * Written by `python -m tools.page_types` from the server's models; do not edit it by hand.
  */
 """
-_PLAIN = {"integer": "number", "number": "number", "string": "string", "boolean": "boolean"}
-_PLAIN["null"] = "null"
+_PLAIN = {one: one for one in ("number", "string", "boolean", "null")} | {"integer": "number"}
 
 
 def types():
@@ -77,18 +76,20 @@ def _mark(field, how, schema):
 
 def _type(how):
     """A JSON schema as a type."""
-    if "$ref" in how:
-        return how["$ref"].rpartition("/")[2]
     for several in ("oneOf", "anyOf"):
         if several in how:
             return " | ".join(_type(one) for one in how[several])
-    if "const" in how:
-        return json.dumps(how["const"])
-    if "enum" in how:
-        return " | ".join(map(json.dumps, how["enum"]))
+    if "$ref" in how:
+        return how["$ref"].rpartition("/")[2]
+    values = [how["const"]] if "const" in how else how.get("enum")
+    return " | ".join(map(json.dumps, values)) if values else _plain(how)
+
+
+def _plain(how):
+    """A JSON schema that names a type."""
+    if "prefixItems" in how:
+        return f"[{', '.join(_type(one) for one in how['prefixItems'])}]"
     if how["type"] == "array":
-        if "prefixItems" in how:
-            return f"[{', '.join(_type(one) for one in how['prefixItems'])}]"
         inner = _type(how["items"])
         return f"({inner})[]" if "|" in inner else f"{inner}[]"
     if how["type"] == "object":

@@ -105,7 +105,7 @@ export class Labelling extends Events {
     this.tell("loading");
     let ready;
     try {
-      const { bitmap } = (await this.#ahead.get(id)) ?? (await this.#fetch(id));
+      const { bitmap } = (await this.#ahead.get(id)) ?? (await this.#read(id));
       ready = { bitmap, document: await get(`api/photos/${id}`, { patience: OPENING }) }; // never an old revision
     } catch (error) {
       if (turn === this.#opening) this.#cannotOpen(ApiError.of(error));
@@ -173,7 +173,7 @@ export class Labelling extends Events {
     this.#measure(document);
     this.queue.add({ photo: document.id, name: document.name, what: "operations", operation: { kind: "open" }, revision: -1, says: "open", quiet: true });
     const next = this.following();
-    if (next) this.#ahead.set(next.id, this.#fetch(next.id).catch(() => null)); // asked for again when it is opened
+    if (next) this.#ahead.set(next.id, this.#read(next.id).catch(() => null)); // asked for again when it is opened
   }
 
   /** @param {ApiError} error */
@@ -277,7 +277,7 @@ export class Labelling extends Events {
    * @param {number} id
    * @returns {Promise<Ready>}
    */
-  async #fetch(id) {
+  async #read(id) {
     const [document, bitmap] = await Promise.all([
       get(`api/photos/${id}`, { patience: OPENING }), picture(`api/photos/${id}/image`, { patience: OPENING })]);
     return { document, bitmap };

@@ -3,6 +3,7 @@
 import { ApiError, get } from "./api.js";
 import { alongOldLine, nearest, nextUncertain } from "./geometry.js";
 import { brushRadius } from "./strokes.js";
+import { counted } from "./words.js";
 
 /** @import { Labelling } from "./labelling.js" */
 /** @import { Previewer } from "./previewer.js" */
@@ -114,7 +115,7 @@ export function lineActions({ labelling, view, selection, previewer, focus }) {
         const { alternatives } = await get(`api/photos/${id}/alternatives/${column}`);
         if (labelling.document?.id !== id) return; // asked for a photo that is left by now
         const chosen = alternatives[number - 1];
-        if (!chosen) return labelling.say(`There are ${alternatives.length} other lines through column ${column}.`);
+        if (!chosen) return labelling.say(`${counted(alternatives.length, "other line")} through column ${column}.`);
         moveTo(column, null);
         act.setAnchor(column, chosen.row);
       } catch (error) {

@@ -1,15 +1,17 @@
 """The page's JavaScript that needs no browser, under Node."""
 
-import shutil
 import subprocess
+import sys
 from pathlib import Path
 
-TESTS = Path(__file__).parents[1] / "page"
+import pytest
+
+TESTS = sorted((Path(__file__).parents[1] / "page").glob("*.test.mjs"))
 
 
-def test_the_queue_of_the_page_and_what_it_stands_on():
-    node = shutil.which("node")
-    assert node is not None, "Node is missing; tools/setup.sh dev installs it"
-    files = sorted(map(str, TESTS.glob("*.test.mjs")))
-    done = subprocess.run([node, "--test", *files], capture_output=True, text=True, check=False)
+@pytest.mark.parametrize("file", TESTS, ids=lambda file: file.name.removesuffix(".test.mjs"))
+def test_the_modules_of_the_page(file):
+    node = Path(sys.executable).with_name("node")  # of the locked development set
+    assert node.exists(), "Node is missing; tools/setup.sh dev installs it"
+    done = subprocess.run([node, "--test", file], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout
