@@ -1,4 +1,9 @@
-/** Puts the page together: which parts there are, and which button or key calls what. */
+/**
+ * Puts the page together: which parts there are, and which button or key calls what.
+ *
+ * What a click does: `Pointer` gives it to a tool, the tool makes an operation, `Labelling.apply` puts that into
+ * the `Queue`, which sends it until the server has kept it. The answer is told as `document`, and drawn.
+ */
 
 import { Actions } from "./actions.js";
 import { makeActs } from "./acts.js";
