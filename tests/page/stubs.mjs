@@ -61,3 +61,8 @@ export class Asked {
 
 /** Let everything that is due happen. */
 export const soon = () => new Promise((done) => setImmediate(done));
+
+/** Let what is asked meanwhile be answered. */
+export async function quiet() {
+  for (let turn = 0; turn < 30; turn++) await soon();
+}

@@ -1,4 +1,4 @@
-/** Rules for the labelling page's JavaScript and its tests. */
+/** Rules for the JavaScript of the labelling page, of the viewer's page, and of the tests. */
 
 import js from "@eslint/js";
 import globals from "globals";
@@ -21,7 +21,11 @@ export default [
   js.configs.recommended,
   { linterOptions: { reportUnusedDisableDirectives: "error" }, rules: SENSIBLE },
   { files: ["**/static/**/*.js"], languageOptions: { globals: globals.browser } },
+  {
+    files: ["**/viewer_page/**/*.js"],
+    languageOptions: { sourceType: "script", globals: { ...globals.browser, wasm_bindgen: "readonly" } },
+  },
   { files: ["**/tests/**/*.mjs", "**/tools/**/*.js"], languageOptions: { globals: globals.node } },
   { files: ["**/tests/**/*.mjs"], rules: { complexity: "off" } }, // a model of the server has many cases
-  { files: ["**/static/**/*.js"], rules: { "no-restricted-globals": ["error", "event", "name", "find"] } },
+  { files: ["**/static/**/*.js"], rules: { "no-restricted-globals": ["error", "event", "name", "find"] } }, // of the window
 ];
