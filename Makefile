@@ -1,7 +1,7 @@
 .DEFAULT_GOAL := help
 .PHONY: help demo test check coverage bounds fuzz legs ci bench reliability pictures samples lock clean
 
-SOURCES = pyproject.toml requirements.txt requirements-dev.txt tools/setup.sh
+SOURCES = pyproject.toml requirements.txt requirements-dev.txt tools/setup.sh tools/page/package-lock.json
 PYTEST = .venv/bin/python -m pytest
 # The tests of each module with a compiled loop.
 KERNEL_TESTS = $(shell grep -rl 'numba.njit' skyline_viz annotate --include='*.py' | \
@@ -21,6 +21,7 @@ check: .venv/.installed-dev  ## Lint, types and import rules only.
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
 	.venv/bin/lint-imports
+	PATH="$(CURDIR)/.venv/bin:$$PATH" npm run --prefix tools/page --silent check
 
 coverage: .venv/.installed-dev  ## All tests, with the lines and branches that they reach: at least 95 %.
 	.venv/bin/coverage erase
@@ -63,7 +64,7 @@ lock: .venv/.installed-dev  ## Renew the locked versions: what development needs
 	$(LOCK) --constraints requirements-dev.txt --output-file requirements.txt
 
 clean:  ## Remove the environments and what was built and shown.
-	rm -rf .venv .venv-* build dist skyline-demo skyline-gallery .coverage .coverage.*
+	rm -rf .venv .venv-* tools/page/node_modules build dist skyline-demo skyline-gallery .coverage .coverage.*
 
 .venv/.installed-run: $(SOURCES)
 	tools/setup.sh run
