@@ -7,25 +7,6 @@ The engine works without any server:
     wire.skyline.rows
 """
 
-from __future__ import annotations
+import lazy_loader
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from annotate.labels import Label
-    from annotate.live_wire import LiveWire
-
-__all__ = ["Label", "LiveWire"]
-
-
-def __getattr__(name: str) -> object:
-    """Import what is asked for only then, so that ``skyline-annotate --help`` is quick."""
-    if name == "LiveWire":
-        from annotate.live_wire import LiveWire  # noqa: PLC0415
-
-        return LiveWire
-    if name == "Label":
-        from annotate.labels import Label  # noqa: PLC0415
-
-        return Label
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -9,7 +9,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from annotate.labels import Label
+from annotate.store.labels import Label
 from skyline_viz.arrays import F64, U8
 from skyline_viz.overlay import draw_overlay
 from skyline_viz.photo import PhotoError, read_photo

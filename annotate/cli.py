@@ -11,8 +11,8 @@ from annotate.commands.repairs import Repair
 from annotate.commands.reports import Agreement, Status
 from annotate.commands.transfer import Backup, Export, Import
 from skyline_viz import __version__
-from skyline_viz.commands.program import Command, parsed, run_program
-from skyline_viz.commands.settings import asked_preset, config_of
+from skyline_viz.command_line.program import Command, parsed, run_program
+from skyline_viz.command_line.settings import asked_preset, config_of
 
 _ABOUT = f"""Label mountain skylines: the detector proposes, a few clicks correct, nothing is lost.
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from benchmarks.table import A_ERR_HEADER, a_err_cells, markdown
 from skyline_viz import Detector, DetectorConfig, TrainingConfig, open_dataset
-from skyline_viz.evaluation import cross_validate, evaluate
-from skyline_viz.results import Summary, worst
+from skyline_viz.evaluation.cross_validation import cross_validate, evaluate
+from skyline_viz.evaluation.results import Summary, worst
 
 WITHOUT = {
     "default": {},

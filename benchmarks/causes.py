@@ -6,11 +6,11 @@ from pathlib import Path
 from time import process_time
 
 from benchmarks.table import markdown
-from skyline_viz.causes import CAUSES
-from skyline_viz.datasets import open_dataset
+from skyline_viz.datasets.layouts import open_dataset
 from skyline_viz.detector import Detector
-from skyline_viz.diagnosis import diagnose
-from tests.injected import CONSULTED, FAMILIAR, MAKERS, UNSEEN, Injected, cases, main_cause
+from skyline_viz.diagnosis.causes import CAUSES
+from skyline_viz.diagnosis.diagnosing import diagnose
+from testing.injected import CONSULTED, FAMILIAR, MAKERS, UNSEEN, Injected, cases, main_cause
 
 EACH = 40
 """Cases of each cause."""

@@ -15,16 +15,16 @@ from time import process_time
 
 import numpy as np
 
-from annotate.edits import EditError
-from annotate.lines import Line
-from annotate.messages import Document
-from annotate.operations import Forbid, Hide, MoveAnchor, Operation, SetAnchor
-from annotate.session import Session
-from annotate.store import Store
+from annotate.engine.edits import EditError
+from annotate.server.messages import Document
+from annotate.store.lines import Line
+from annotate.store.operations import Forbid, Hide, MoveAnchor, Operation, SetAnchor
+from annotate.store.store import Store
+from annotate.work.session import Session
 from benchmarks.table import markdown
 from skyline_viz import Skyline
 from skyline_viz.constraints import PathError
-from tests.labelling import workbench, write_hills
+from testing.labelling import workbench, write_hills
 
 COUNTS = (10, 100, 500, 2000)
 """Operations in the log before the click."""

@@ -7,9 +7,9 @@ import numpy as np
 from benchmarks.table import A_ERR_HEADER, a_err_cells, markdown
 from skyline_viz import Detector, DetectorConfig, FilterBank, TrainingConfig, open_dataset
 from skyline_viz.config import FILTER_SIZES
-from skyline_viz.evaluation import cross_validate
+from skyline_viz.evaluation.cross_validation import cross_validate
+from skyline_viz.evaluation.results import PhotoResult, Summary
 from skyline_viz.filter_bank import STARVED_SAMPLES
-from skyline_viz.results import PhotoResult, Summary
 from skyline_viz.terrain import solve_terrain
 from skyline_viz.training import GramMatrices, gather, pooled, regress
 

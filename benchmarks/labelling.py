@@ -8,12 +8,12 @@ from time import perf_counter, sleep
 import cv2
 import numpy as np
 
-from annotate.live_wire import LiveWire
+from annotate.engine.live_wire import LiveWire
 from benchmarks.table import markdown
 from skyline_viz import Detector, Skyline, open_dataset, train
-from skyline_viz.metrics import column_errors
+from skyline_viz.evaluation.metrics import column_errors
 from skyline_viz.photo import PHOTO_SUFFIXES, PhotoError, photo_size, write_photo
-from tests.labelling import asked, hills, served
+from testing.labelling import asked, hills, served
 
 GOAL = 1.0  # A_err in pixels at which the robot stops
 MOST = 100  # clicks after which it gives up

@@ -3,11 +3,11 @@
 from pathlib import Path
 
 from skyline_viz import open_dataset
+from skyline_viz.evaluation.comparing import compare_methods
+from skyline_viz.evaluation.tables import table_1, table_5, table_6
+from skyline_viz.evaluation.tables_report import markdown
+from skyline_viz.evaluation.timing import time_methods
 from skyline_viz.methods.registry import NAMES, make_method
-from skyline_viz.methods.testing import compare_methods
-from skyline_viz.methods.timing import time_methods
-from skyline_viz.tables import table_1, table_5, table_6
-from skyline_viz.tables_report import markdown
 
 FOLDS = 2
 

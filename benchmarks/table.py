@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from skyline_viz.results import Summary
+from skyline_viz.evaluation.results import Summary
 
 A_ERR_HEADER = (
     "mean", "standard deviation", "median", "min", "max", "< 4 px", "< 5 px", "gross misses",

@@ -6,15 +6,15 @@ from typing import Annotated, Any, Union
 import tyro
 
 from skyline_viz import __version__
+from skyline_viz.command_line.program import Command, parsed, run_program
+from skyline_viz.command_line.settings import Preset, asked_preset, config_of
 from skyline_viz.commands.demo import Demo
 from skyline_viz.commands.detect import Detect
 from skyline_viz.commands.diagnose import Diagnose
 from skyline_viz.commands.evaluate import Evaluate
 from skyline_viz.commands.gallery import GalleryCommand
 from skyline_viz.commands.inspect import Inspect
-from skyline_viz.commands.program import Command, parsed, run_program
 from skyline_viz.commands.render import Render
-from skyline_viz.commands.settings import Preset, asked_preset, config_of
 from skyline_viz.commands.tables import Tables
 from skyline_viz.commands.train import Train
 from skyline_viz.config import TrainingConfig

@@ -13,18 +13,16 @@ import numpy.typing as npt
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
-from skyline_viz.datasets import DatasetItem
+from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.detection import Detection, timed
-from skyline_viz.edges import edge_pixels, find_edges, to_grey
+from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
 from skyline_viz.tensor import tensor_at
 from skyline_viz.terrain import BLOCK, terrain_above
-
-FRAME_SHARE = 0.5
-"""A row at the rim of a photo is a picture frame when edges fill more than this share of it."""
+from skyline_viz.training import train
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -111,8 +109,6 @@ class Detector:
         Raises:
             ValueError: No photo has a truth.
         """
-        from skyline_viz.training import train  # noqa: PLC0415  # which uses this module
-
         pairs = ((item.photo(), truth) for item in items if (truth := item.truth()) is not None)
         bank = train(pairs, seed=seed, config=TrainingConfig(detector=self.config))
         return replace(self, bank=bank)
@@ -222,22 +218,6 @@ class Detector:
             above = terrain_above(photo, edges, self.bank.terrain)
             add_blocks(cost, above, config.terrain_weight, BLOCK)
         return cost
-
-
-def candidate_edges(photo: U8, config: DetectorConfig) -> tuple[Bool, tuple[float, float]]:
-    """Edge map ``(H, W)`` of a photo without its frame, and the Canny thresholds that made it."""
-    edges, thresholds = find_edges(
-        photo,
-        config.edge_source,
-        config.low_threshold,
-        config.high_threshold,
-        fit=config.fit_thresholds,
-    )
-    height = len(edges)
-    for row in {*range(config.frame), *range(height - config.frame, height)} & set(range(height)):
-        if edges[row].mean() > FRAME_SHARE:
-            edges[row] = False
-    return edges, thresholds
 
 
 class _SearchSettings(TypedDict):

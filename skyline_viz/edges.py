@@ -5,7 +5,7 @@ import numba
 import numpy as np
 
 from skyline_viz.arrays import I16, U8, Bool, Int
-from skyline_viz.config import EdgeSource
+from skyline_viz.config import DetectorConfig, EdgeSource
 
 STRONG_PERCENTILE = 95
 """Percentile of a photo's gradients that stands for its strong ones."""
@@ -22,6 +22,9 @@ NOISE_MULTIPLE = 4.0
 LOWEST_FACTOR = 0.3
 """The thresholds are lowered to this share at the most."""
 
+FRAME_SHARE = 0.5
+"""A row at the rim of a photo is a picture frame when edges fill more than this share of it."""
+
 GRADIENT_STEP = 6
 """Gradients are sampled this many pixels apart."""
 
@@ -30,6 +33,22 @@ def to_grey(photo: U8) -> U8:
     """Grey photo ``(H, W)`` uint8 of an RGB photo ``(H, W, 3)``, with the weights of ITU-R 601."""
     grey: U8 = cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY)
     return grey
+
+
+def candidate_edges(photo: U8, config: DetectorConfig) -> tuple[Bool, tuple[float, float]]:
+    """Edge map ``(H, W)`` of a photo without its frame, and the Canny thresholds that made it."""
+    edges, thresholds = find_edges(
+        photo,
+        config.edge_source,
+        config.low_threshold,
+        config.high_threshold,
+        fit=config.fit_thresholds,
+    )
+    height = len(edges)
+    for row in {*range(config.frame), *range(height - config.frame, height)} & set(range(height)):
+        if edges[row].mean() > FRAME_SHARE:
+            edges[row] = False
+    return edges, thresholds
 
 
 def find_edges(

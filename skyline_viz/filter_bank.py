@@ -14,7 +14,7 @@ from skyline_viz.arrays import F32, read_only
 from skyline_viz.bins import Bins
 from skyline_viz.config import FILTER_SIZES
 from skyline_viz.files import replacing
-from skyline_viz.headed_npz import NpzError, Stored, opened
+from skyline_viz.system.headed_npz import NpzError, Stored, opened
 from skyline_viz.terrain import FEATURES
 
 FORMAT = "skyline-viz filter bank"

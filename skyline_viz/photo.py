@@ -12,12 +12,12 @@ from typing import BinaryIO
 
 from PIL import Image, UnidentifiedImageError
 
-from skyline_viz import memory
 from skyline_viz.arrays import U8
 from skyline_viz.files import replacing
-from skyline_viz.photo_decoding import decoded, opened
-from skyline_viz.photo_files import checked_file, find_photos
-from skyline_viz.photo_kinds import PHOTO_SUFFIXES, RefusedError, unknown
+from skyline_viz.picture_files.decoding import decoded, opened
+from skyline_viz.picture_files.kinds import PHOTO_SUFFIXES, RefusedError, unknown
+from skyline_viz.picture_files.listing import checked_file, find_photos
+from skyline_viz.system import memory
 
 __all__ = [
     "MAX_MEGAPIXELS",

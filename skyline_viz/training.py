@@ -13,12 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz import __version__
+from skyline_viz._version import __version__
 from skyline_viz.arrays import F64, U8, Int, check_photo
 from skyline_viz.bins import Bins
 from skyline_viz.config import TrainingConfig
-from skyline_viz.detector import candidate_edges
-from skyline_viz.edges import edge_pixels, to_grey
+from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank, Provenance
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.tensor import tensor_at

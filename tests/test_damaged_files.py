@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.headed_npz import MOST_BYTES, NpzError, opened
+from skyline_viz.method import MethodError
 from skyline_viz.methods.descriptors import LENGTH
 from skyline_viz.methods.edges_only import EdgesOnly
-from skyline_viz.methods.protocol import MethodError
 from skyline_viz.methods.registry import Trained, load_method, make_method, save_method
 from skyline_viz.methods.score_images import PATCH
 from skyline_viz.rendering import render
-from tests.harm import Mutations, as_npy, members, npz_of
+from skyline_viz.system.headed_npz import MOST_BYTES, NpzError, opened
+from testing.harm import Mutations, as_npy, members, npz_of
 
 MOST_TAKEN = 64 << 20
 """Bytes that reading any of the files here may take at a time."""

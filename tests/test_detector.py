@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 from skyline_viz.bins import Bins
 from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import edge_cost, normalised
-from skyline_viz.detector import Detector, candidate_edges
-from skyline_viz.edges import edge_pixels, to_grey
+from skyline_viz.detector import Detector
+from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
+from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.metrics import a_err
 from skyline_viz.path import margins, path_tables
 from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline

@@ -5,7 +5,6 @@ import doctest
 import io
 import re
 from dataclasses import fields
-from pathlib import Path
 
 import pytest
 
@@ -14,8 +13,8 @@ import skyline_viz
 from skyline_viz.bins import Bins
 from skyline_viz.cli import main
 from skyline_viz.config import DetectorConfig, TrainingConfig
+from testing import ROOT
 
-ROOT = Path(__file__).resolve().parent.parent
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 COMMANDS = (
     "detect",

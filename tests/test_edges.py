@@ -7,8 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from skyline_viz.config import DetectorConfig
-from skyline_viz.detector import FRAME_SHARE, candidate_edges
-from skyline_viz.edges import edge_pixels, to_grey
+from skyline_viz.edges import FRAME_SHARE, candidate_edges, edge_pixels, to_grey
 
 STEADY = settings(deadline=None, derandomize=True, max_examples=60)
 SOURCES = pytest.mark.parametrize("source", ["grey", "colour"])

@@ -21,7 +21,7 @@ from skyline_viz.photo import (
     read_photo,
     write_photo,
 )
-from skyline_viz.photo_files import find_unread
+from skyline_viz.picture_files.listing import find_unread
 
 # A picture that survives JPEG: 16x16 blocks of one colour, no two rotations of it alike.
 BLOCKS = np.array(

@@ -12,9 +12,9 @@ from PIL import Image
 
 import skyline_viz as sv
 from skyline_viz.photo import photo_size, read_photo, read_photo_with_notes
-from skyline_viz.pixel_depth import white_of
-from skyline_viz.transparency import without_transparency
-from tests import photo_files
+from skyline_viz.picture_files.pixel_depth import white_of
+from skyline_viz.picture_files.transparency import without_transparency
+from testing import photo_files
 
 PHOTO, ROWS = photo_files.scene()
 

@@ -8,10 +8,10 @@ import pytest
 
 from skyline_viz.bins import Bins
 from skyline_viz.config import DetectorConfig, TrainingConfig
-from skyline_viz.detector import Detector, candidate_edges
-from skyline_viz.edges import edge_pixels, to_grey
+from skyline_viz.detector import Detector
+from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
+from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.filter_bank import STARVED_SAMPLES
-from skyline_viz.metrics import a_err
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.tensor import tensor_at
 from skyline_viz.training import (

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from PIL import Image
 
-from skyline_viz.truths import read_truth
-from tests.e2e.browser import Page, chromium
-from tests.labelling import served
+from skyline_viz.datasets.truths import read_truth
+from testing.browser import Page, chromium
+from testing.labelling import served
 
 SAMPLES = Path(__file__).parents[1] / "sample_data" / "images"
 

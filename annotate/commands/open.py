@@ -18,19 +18,19 @@ from annotate.commands.options import (
     locked,
     whoever,
 )
-from annotate.labels import MOST_PASSES
-from skyline_viz.commands.messages import GOOD, UsageError, counted, say, tell
-from skyline_viz.commands.methods import MethodOptions, Methods
-from skyline_viz.commands.settings import BankFile, Preset, Switch, make_detector
-from skyline_viz.commands.sizes import MaxMegapixels, say_too_large
+from annotate.store.labels import MOST_PASSES
+from skyline_viz.command_line.messages import GOOD, UsageError, counted, say, tell
+from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.settings import BankFile, Preset, Switch, make_detector
+from skyline_viz.command_line.sizes import MaxMegapixels, say_too_large
 from skyline_viz.config import DetectorConfig
-from skyline_viz.endings import told_by_signals
-from skyline_viz.memory import MAX_MEGAPIXELS
+from skyline_viz.system.endings import told_by_signals
+from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
-    from annotate.store import Store
-    from annotate.workbench import Workbench
-    from skyline_viz.methods.protocol import Method
+    from annotate.store.store import Store
+    from annotate.work.workbench import Workbench
+    from skyline_viz.method import Method
 
 
 @dataclass(frozen=True)
@@ -102,14 +102,14 @@ class Open:
 
     def _unread(self) -> list[str]:
         """A sentence about pictures in the folder that cannot be read, where there are any."""
-        from annotate.folder import unread_below  # noqa: PLC0415
+        from annotate.store.folder import unread_below  # noqa: PLC0415
 
         return [unread] if (unread := unread_below(self.folder)) else []
 
     def _serve(self) -> int:
-        from annotate.doubts import read_doubts  # noqa: PLC0415
-        from annotate.store import Store  # noqa: PLC0415
-        from annotate.workbench import Assignment, Workbench  # noqa: PLC0415
+        from annotate.store.store import Store  # noqa: PLC0415
+        from annotate.work.doubts import read_doubts  # noqa: PLC0415
+        from annotate.work.workbench import Assignment, Workbench  # noqa: PLC0415
 
         who = Assignment(
             whoever(self.annotator), self.pass_number, self.order, self.blind, self.seed
@@ -144,8 +144,8 @@ class Open:
 
 def propose_all(bench: Workbench) -> None:
     """Make all proposals that are missing, so that their margins can be compared."""
-    from skyline_viz.batch import sentence  # noqa: PLC0415
-    from skyline_viz.progress import ProgressBar  # noqa: PLC0415
+    from skyline_viz.running.batch import sentence  # noqa: PLC0415
+    from skyline_viz.running.progress import ProgressBar  # noqa: PLC0415
 
     waiting = [one for one in bench.cards() if one.margin is None and one.status == "to do"]
     with ProgressBar(len(waiting), "proposing") as bar:
@@ -161,9 +161,9 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
     """Serve the page until Ctrl-C, and print its address."""
     import uvicorn  # noqa: PLC0415
 
-    from annotate.security import allowed_hosts  # noqa: PLC0415
-    from annotate.server import make_app  # noqa: PLC0415
-    from skyline_viz.viewer import has_display  # noqa: PLC0415
+    from annotate.server.app import make_app  # noqa: PLC0415
+    from annotate.server.security import allowed_hosts  # noqa: PLC0415
+    from skyline_viz.viewer.process import has_display  # noqa: PLC0415
 
     listener, token = found_again(bench.store, host, port)
     port = listener.getsockname()[1]
@@ -194,13 +194,7 @@ def found_again(store: Store, host: str, port: int) -> tuple[socket.socket, str]
     Raises:
         UsageError: As `bound` does.
     """
-    from annotate.address import (  # noqa: PLC0415
-        Address,
-        folder_id,
-        keep_address,
-        kept_address,
-        new_address,
-    )
+    from annotate.server.address import Address, folder_id, keep_address, kept_address, new_address  # noqa: PLC0415
 
     folder = folder_id(store)
     address = kept_address(folder) or new_address()

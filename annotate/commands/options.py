@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 import tyro
 
-from skyline_viz.commands.messages import UsageError, say
+from skyline_viz.command_line.messages import UsageError, say
 
 if TYPE_CHECKING:
-    from annotate.store import Store
+    from annotate.store.store import Store
 
 PROGRAM = "skyline-annotate"
 """The program's name."""
@@ -36,7 +36,7 @@ def whoever(name: str) -> str:
     Raises:
         UsageError: There is none, or it is none that can be kept.
     """
-    from annotate.labels import check_annotator  # noqa: PLC0415
+    from annotate.store.labels import check_annotator  # noqa: PLC0415
 
     if name.strip():
         try:
@@ -71,7 +71,7 @@ def locked(folder: Path) -> Iterator[None]:
     """
     from filelock import FileLock, Timeout  # noqa: PLC0415
 
-    from annotate.database import StoreError  # noqa: PLC0415
+    from annotate.store.database import StoreError  # noqa: PLC0415
 
     lock = FileLock(folder / _LOCK, timeout=0)
     try:
@@ -95,8 +95,8 @@ def opened(folder: Path) -> Iterator[Store]:
         UsageError: There is no such folder, or it has no labels.
         StoreError: They cannot be opened.
     """
-    from annotate.database import NAME, holds_something  # noqa: PLC0415
-    from annotate.store import Store  # noqa: PLC0415
+    from annotate.store.database import NAME, holds_something  # noqa: PLC0415
+    from annotate.store.store import Store  # noqa: PLC0415
 
     if not holds_something(check_folder(folder) / NAME):
         raise UsageError(f"{folder} has no labels yet; make some: {PROGRAM} open {folder}.")

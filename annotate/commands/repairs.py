@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from annotate.commands.options import PROGRAM, PhotoFolder, check_folder, locked
-from skyline_viz.commands.messages import GOOD, SOME_FAILED, say, tell
+from skyline_viz.command_line.messages import GOOD, SOME_FAILED, say, tell
 
 
 @dataclass(frozen=True)
@@ -17,7 +17,7 @@ class Repair:
 
     def run(self) -> int:
         """Repair; return the exit status."""
-        from annotate.repair import repair  # noqa: PLC0415
+        from annotate.rescue.repair import repair  # noqa: PLC0415
 
         with locked(check_folder(self.folder)):
             done = repair(self.folder)

@@ -10,8 +10,8 @@ from typing import Annotated
 import tyro
 
 from annotate.commands.options import PROGRAM, PhotoFolder, opened
-from annotate.labels import STATUSES
-from skyline_viz.commands.messages import (
+from annotate.store.labels import STATUSES
+from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
     UsageError,
@@ -20,10 +20,10 @@ from skyline_viz.commands.messages import (
     tell,
     tell_drawn,
 )
-from skyline_viz.commands.settings import Switch, check_picture
-from skyline_viz.commands.sizes import MaxMegapixels
-from skyline_viz.memory import MAX_MEGAPIXELS
-from skyline_viz.names import cell, columns_of, padded, shortened
+from skyline_viz.command_line.settings import Switch, check_picture
+from skyline_viz.command_line.sizes import MaxMegapixels
+from skyline_viz.system.memory import MAX_MEGAPIXELS
+from skyline_viz.system.names import cell, columns_of, padded, shortened
 
 
 @dataclass(frozen=True)
@@ -40,9 +40,9 @@ class Status:
         """Print a table; return the exit status."""
         from rich.table import Table  # noqa: PLC0415
 
-        from annotate.folder import unread_below  # noqa: PLC0415
         from annotate.formats.orphans import gone  # noqa: PLC0415
-        from annotate.joined import joined  # noqa: PLC0415
+        from annotate.store.folder import unread_below  # noqa: PLC0415
+        from annotate.work.joined import joined  # noqa: PLC0415
 
         with opened(self.folder) as store:
             found = joined(store)
@@ -101,7 +101,7 @@ class Agreement:
         from annotate.agreement import WITHIN, paired  # noqa: PLC0415
         from annotate.agreement import Agreement as Found  # noqa: PLC0415
         from annotate.agreement import picture as drawn  # noqa: PLC0415
-        from annotate.joined import joined  # noqa: PLC0415
+        from annotate.work.joined import joined  # noqa: PLC0415
         from skyline_viz.photo import write_photo  # noqa: PLC0415
 
         check_picture(self.picture)

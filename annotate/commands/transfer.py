@@ -20,15 +20,15 @@ from annotate.commands.options import (
     opened,
     whoever,
 )
-from skyline_viz.commands.messages import GOOD, SOME_FAILED, UsageError, counted, say, tell
-from skyline_viz.commands.settings import OptionalFolder, Switch
-from skyline_viz.commands.sizes import MaxMegapixels
-from skyline_viz.commands.truth_options import TruthOptions, Truths
-from skyline_viz.memory import MAX_MEGAPIXELS
+from skyline_viz.command_line.messages import GOOD, SOME_FAILED, UsageError, counted, say, tell
+from skyline_viz.command_line.settings import OptionalFolder, Switch
+from skyline_viz.command_line.sizes import MaxMegapixels
+from skyline_viz.command_line.truth_options import TruthOptions, Truths
+from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
-    from annotate.identity import Photo
-    from annotate.label_table import Log
+    from annotate.store.identity import Photo
+    from annotate.store.label_table import Log
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Export:
     def run(self) -> int:
         """Export; return the exit status."""
         from annotate.formats import export_labels  # noqa: PLC0415
-        from annotate.joined import joined  # noqa: PLC0415
+        from annotate.work.joined import joined  # noqa: PLC0415
 
         out = self.out or Path(f"skylines-{self.format}")
         with opened(self.folder) as store:
@@ -118,7 +118,7 @@ class Import:
 
     def run(self) -> int:
         """Import; return the exit status."""
-        from annotate.store import Store  # noqa: PLC0415
+        from annotate.store.store import Store  # noqa: PLC0415
 
         check_folder(self.folder)
         with closing(Store(self.folder, reading=True)) as store:
@@ -148,9 +148,9 @@ class Import:
 
         Also a sentence for each that cannot, and what is worth knowing.
         """
-        from annotate.contents import Contents  # noqa: PLC0415
         from annotate.formats import FormatError, import_labels  # noqa: PLC0415
-        from annotate.importing import checked  # noqa: PLC0415
+        from annotate.store.contents import Contents  # noqa: PLC0415
+        from annotate.work.importing import checked  # noqa: PLC0415
 
         if not photos:
             raise UsageError(f"{self.folder} holds no photograph.")
@@ -198,7 +198,7 @@ class Backup:
 
     def run(self) -> int:
         """Back up; return the exit status."""
-        from annotate.database import backup  # noqa: PLC0415
+        from annotate.store.database import backup  # noqa: PLC0415
 
         name = check_folder(self.folder).resolve().name or "photos"
         date = datetime.now().astimezone().strftime("%Y-%m-%d-%H%M%S")

@@ -28,7 +28,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from annotate.contents import Contents
 from annotate.formats import coco, cvat, labelme, masks, tables, whole
 from annotate.formats.common import (
     Entry,
@@ -47,9 +46,10 @@ from annotate.formats.importing import Found, Imports, Reader, Task
 from annotate.formats.interpretation import interpret
 from annotate.formats.photo_names import PhotoNames
 from annotate.formats.sources import drawings_in, files_below, format_of
-from annotate.labels import Label
-from skyline_viz.aftermath import passing_folder
+from annotate.store.contents import Contents
+from annotate.store.labels import Label
 from skyline_viz.files import make_folder, move_folder
+from skyline_viz.system.aftermath import passing_folder
 
 
 def _drawn(format: str) -> Reader:  # noqa: A002

@@ -12,9 +12,9 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from annotate.contents import Contents
-from annotate.folder import photos_below
-from annotate.labels import Label
+from annotate.store.contents import Contents
+from annotate.store.folder import photos_below
+from annotate.store.labels import Label
 from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.skyline import Skyline, SkylineError
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from annotate.formats.common import FormatError
 from annotate.formats.outlines import Points, Runs
-from skyline_viz.commands.messages import counted, listed
+from skyline_viz.command_line.messages import counted, listed
 
 LINES, SKIES = ("skyline", "horizon"), ("sky",)
 """Labels of lines that are skylines, and of regions that are sky, unless others are named."""

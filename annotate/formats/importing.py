@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from annotate.contents import Contents
 from annotate.formats.common import FormatError, Imported, check_size
 from annotate.formats.drawings import Wanted
 from annotate.formats.photo_names import PhotoNames
 from annotate.formats.rivals import refuse_rivals, seen_rows
-from skyline_viz.commands.messages import counted, listed
+from annotate.store.contents import Contents
+from skyline_viz.command_line.messages import counted, listed
 from skyline_viz.photo import PhotoError
 from skyline_viz.skyline import Skyline, SkylineError
 

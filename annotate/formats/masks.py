@@ -14,11 +14,11 @@ import numpy as np
 
 from annotate.formats.common import Entry, FormatError, Imported, check_size
 from annotate.formats.importing import Task
-from skyline_viz.datasets import TRUTH_FOLDERS
-from skyline_viz.label_picture import label_size
+from skyline_viz.datasets.label_picture import label_size
+from skyline_viz.datasets.layouts import TRUTH_FOLDERS
+from skyline_viz.datasets.truths import truth_with_notes
 from skyline_viz.photo import PHOTO_SUFFIXES, PhotoError, photo_size, read_photo, write_photo
 from skyline_viz.skyline import Skyline, SkylineError
-from skyline_viz.truths import truth_with_notes
 
 CH1_PART = "cvg"
 """The folder of CH1 in which an export lies; `skyline_viz.open_dataset` knows it."""

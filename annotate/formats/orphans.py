@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from annotate.identity import short
-from annotate.labels import Label
-from skyline_viz.names import shortened
+from annotate.store.identity import short
+from annotate.store.labels import Label
+from skyline_viz.system.names import shortened
 
 _NAMED = 5  # labels that a sentence names
 

@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
 from annotate.formats.common import safe_stems
-from skyline_viz.commands.inputs import output_names
-from skyline_viz.datasets import DatasetItem, bare_stem
+from skyline_viz.command_line.inputs import output_names
+from skyline_viz.datasets.layouts import DatasetItem, bare_stem
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from annotate.formats.common import FormatError
-from skyline_viz.sky_region import spans_of
+from skyline_viz.datasets.sky_region import spans_of
 from skyline_viz.skyline import Skyline
 
 _SAME = 2.0

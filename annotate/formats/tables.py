@@ -6,7 +6,7 @@ from pathlib import Path
 
 from annotate.formats.common import Entry
 from annotate.formats.importing import Task
-from skyline_viz.truths import begins_like_a_skyline, read_truth
+from skyline_viz.datasets.truths import begins_like_a_skyline, read_truth
 
 
 def write_csv(entries: list[Entry], folder: Path) -> None:

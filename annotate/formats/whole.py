@@ -10,13 +10,14 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
-from annotate.contents import Contents
+from annotate.engine.edits import ORIGINS
 from annotate.formats.common import Entry, FormatError, Imported, check_size
 from annotate.formats.documents import json_of
 from annotate.formats.importing import Task
 from annotate.formats.orphans import gone
-from annotate.labels import MOST_PASSES, ORIGINS, Label, check_annotator
-from annotate.operations import Status
+from annotate.store.contents import Contents
+from annotate.store.labels import MOST_PASSES, Label, check_annotator
+from annotate.store.operations import Status
 from skyline_viz.files import write_text
 from skyline_viz.skyline import Skyline, SkylineError
 

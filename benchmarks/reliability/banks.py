@@ -14,14 +14,14 @@ import numpy as np
 
 import skyline_viz as sv
 from benchmarks.reliability import Trial
+from skyline_viz.method import Method, MethodError
 from skyline_viz.methods.descriptors import LENGTH
 from skyline_viz.methods.edges_only import EdgesOnly
-from skyline_viz.methods.protocol import Method, MethodError
 from skyline_viz.methods.registry import Trained, load_method, make_method, save_method
 from skyline_viz.methods.score_images import PATCH
 from skyline_viz.methods.sky_network import SkyNetwork
 from skyline_viz.rendering import render
-from tests.harm import Mutations, harmed, small_network
+from testing.harm import Mutations, harmed, small_network
 
 _BANKS, _METHODS, _NETWORKS = 2000, 700, 120
 _PHOTO = render("desert", 50, 60, 48).photo

@@ -16,17 +16,17 @@ from pathlib import Path
 from typing import Any
 
 from annotate.cli import main
-from annotate.contents import Contents
-from annotate.database import NAME, StoreError
 from annotate.formats import FormatError, import_labels
-from annotate.identity import pixel_digest
-from annotate.importing import checked
-from annotate.operations import SetStatus, Straight
-from annotate.store import Store
+from annotate.store.contents import Contents
+from annotate.store.database import NAME, StoreError
+from annotate.store.identity import pixel_digest
+from annotate.store.operations import SetStatus, Straight
+from annotate.store.store import Store
+from annotate.work.importing import checked
 from benchmarks.reliability import Trial
 from skyline_viz.photo import PhotoError, read_photo
-from tests.edited_photos import replaced, with_comment, with_place, write_jpegs
-from tests.labelling import workbench
+from testing.edited_photos import replaced, with_comment, with_place, write_jpegs
+from testing.labelling import workbench
 
 _PHOTOS = 8
 _CHANGES = 250

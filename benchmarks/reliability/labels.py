@@ -16,17 +16,17 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from annotate.folder import photos_below
 from annotate.formats import FORMATS, FormatError, export_labels, import_labels
-from annotate.labels import Label
+from annotate.store.folder import photos_below
+from annotate.store.labels import Label
 from benchmarks.reliability import Trial
-from skyline_viz.commands.inputs import output_names
-from skyline_viz.datasets import open_dataset
+from skyline_viz.command_line.inputs import output_names
+from skyline_viz.datasets.layouts import open_dataset
+from skyline_viz.datasets.truths import read_truth
 from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline, SkylineError
-from skyline_viz.truths import read_truth
-from tests import label_documents as documents
-from tests import label_files as made
+from testing import label_documents as documents
+from testing import label_files as made
 
 LINES, FOLDERS, DOCUMENTS, PICTURES = 400, 120, 6000, 3000
 """How many random lines, folders with random names, damaged label files and damaged pictures."""

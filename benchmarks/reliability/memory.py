@@ -15,14 +15,14 @@ from urllib.parse import urlsplit
 import cv2
 import numpy as np
 
-from annotate.memory import BUDGET
-from annotate.security import TOKEN_HEADER
+from annotate.server.security import TOKEN_HEADER
+from annotate.work.open_photos import BUDGET
 from benchmarks.reliability import Trial
-from skyline_viz.memory import in_words
 from skyline_viz.photo import read_photo, write_photo
-from skyline_viz.web_viewer import served as served_recordings
-from tests.e2e.browser import chromium
-from tests.labelling import TOKEN, served, workbench, write_hills
+from skyline_viz.system.memory import in_words
+from skyline_viz.viewer.web_viewer import served as served_recordings
+from testing.browser import chromium
+from testing.labelling import TOKEN, served, workbench, write_hills
 
 SAMPLE = Path(__file__).resolve().parents[2] / "sample_data" / "images" / "clear-2.jpg"
 OURS = ("127.0.0.1:{port}", "localhost:{port}", "[::1]:{port}")

@@ -18,9 +18,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from benchmarks.reliability import Trial
-from tests.e2e.browser import Page, chromium
-from tests.e2e.restarts import Restarted, kept
-from tests.labelling import write_hills
+from testing.browser import Page, chromium
+from testing.labelling import write_hills
+from testing.restarts import Restarted, kept
 
 SIZE = {"height": 240, "width": 400}
 SCHEDULES = 2000

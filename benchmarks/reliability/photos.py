@@ -14,9 +14,9 @@ from PIL import Image
 import skyline_viz as sv
 from benchmarks.reliability import Trial
 from skyline_viz.cli import main
-from skyline_viz.names import printable
 from skyline_viz.photo import photo_size
-from tests import photo_files
+from skyline_viz.system.names import printable
+from testing import photo_files
 
 MUTATIONS = 4000
 _ALPHABET = "ab .-_#?%&'\"<>[]*$`;\n\r\t\x1b\x07\\\u202e\u200b\u0308üé富山한⛰\U0001f3d4"

@@ -12,9 +12,9 @@ from pathlib import Path
 from time import sleep
 
 from benchmarks.reliability import Trial
-from skyline_viz.resume import FOLDER
-from tests.ends import CASES, SERVING, ended, started, until, write_set
-from tests.full import COMMANDS, fault_of
+from skyline_viz.running.resume import FOLDER
+from testing.ends import CASES, SERVING, ended, started, until, write_set
+from testing.full import COMMANDS, fault_of
 
 _HUNG_UP = ("detect", "evaluate", "gallery", "open")
 _RUNS, _KILLS = 2, 4

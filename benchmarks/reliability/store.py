@@ -17,17 +17,25 @@ import numpy as np
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from annotate import checkpoints
-from annotate.database import NAME, StoreError
-from annotate.edits import EditError, Edits
-from annotate.lines import Line
-from annotate.log import State, folded
-from annotate.store import Store
+from annotate.engine.edits import EditError, Edits
+from annotate.store import checkpoints
+from annotate.store.database import NAME, StoreError
+from annotate.store.history import State, folded
+from annotate.store.lines import Line
+from annotate.store.store import Store
 from benchmarks.reliability import Trial
 from skyline_viz.skyline import Skyline
-from tests.labelling import asked, write_hills
-from tests.test_annotate_crash import started
-from tests.test_log import EMPTY, edits, known_to_version_1, logs, new_moves, old_moves, others
+from testing.labelling import asked, write_hills
+from tests.annotate.server.test_crash import started
+from tests.annotate.store.test_history import (
+    EMPTY,
+    edits,
+    known_to_version_1,
+    logs,
+    new_moves,
+    old_moves,
+    others,
+)
 
 _KILLS = 25
 _DISKS = 12

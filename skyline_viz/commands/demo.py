@@ -8,15 +8,15 @@ from typing import Annotated
 
 import tyro
 
+from skyline_viz.command_line.inputs import collect, output_folder
+from skyline_viz.command_line.messages import SOME_FAILED, say, status_after, tell
+from skyline_viz.command_line.settings import Folder, make_detector
+from skyline_viz.command_line.sizes import MaxMegapixels
 from skyline_viz.commands.gallery import build, show, show_picture
-from skyline_viz.commands.inputs import collect, output_folder
-from skyline_viz.commands.messages import SOME_FAILED, say, status_after, tell
 from skyline_viz.commands.render import write_with_progress
-from skyline_viz.commands.settings import Folder, make_detector
-from skyline_viz.commands.sizes import MaxMegapixels
 from skyline_viz.config import DetectorConfig
-from skyline_viz.datasets import DatasetError, open_dataset
-from skyline_viz.memory import MAX_MEGAPIXELS
+from skyline_viz.datasets.layouts import DatasetError, open_dataset
+from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Demo:
 
     def run(self) -> int:
         """Detect, record and show; return the exit status."""
-        from skyline_viz.viewer import ViewerError, has_display  # noqa: PLC0415  # heavy
+        from skyline_viz.viewer.process import ViewerError, has_display  # noqa: PLC0415  # heavy
 
         inputs = collect(self.photos or [self._samples()])
         output_folder(self.out, (one.item for one in inputs))

@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
-from skyline_viz.batch import Failure, run
-from skyline_viz.commands.inputs import Input, collect, output_folder
-from skyline_viz.commands.messages import UsageError, counted, status_after, tell
-from skyline_viz.commands.methods import MethodOptions, Methods
-from skyline_viz.commands.settings import BankFile, Folder, Preset, Switch, make_detector
-from skyline_viz.commands.sizes import MaxMegapixels, foresee
+from skyline_viz.command_line.inputs import Input, collect, output_folder
+from skyline_viz.command_line.messages import UsageError, counted, status_after, tell
+from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.settings import BankFile, Folder, Preset, Switch, make_detector
+from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.config import DetectorConfig
-from skyline_viz.memory import MAX_MEGAPIXELS
-from skyline_viz.names import columns_of, padded, shortened
+from skyline_viz.running.batch import Failure, run
+from skyline_viz.system.memory import MAX_MEGAPIXELS
+from skyline_viz.system.names import columns_of, padded, shortened
 
 if TYPE_CHECKING:
-    from skyline_viz.methods.protocol import Method
+    from skyline_viz.method import Method
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ class _Found:
 
 
 def _detect(options: Detect, detector: Method, photo: Input) -> _Found:
-    from skyline_viz.evaluation import warm_up  # noqa: PLC0415
+    from skyline_viz.evaluation.cross_validation import warm_up  # noqa: PLC0415
 
     pixels = photo.item.photo()
     warm_up()

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 
 import tyro
 
-from skyline_viz.batch import Failure
-from skyline_viz.commands.inputs import output_folder, with_truth
-from skyline_viz.commands.messages import UsageError, counted, say, status_after, tell
-from skyline_viz.commands.methods import MethodOptions, Methods
-from skyline_viz.commands.settings import (
+from skyline_viz.command_line.inputs import output_folder, with_truth
+from skyline_viz.command_line.messages import UsageError, counted, say, status_after, tell
+from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.settings import (
     BankFile,
     Folder,
     OptionalFolder,
@@ -20,18 +19,19 @@ from skyline_viz.commands.settings import (
     Switch,
     make_detector,
 )
-from skyline_viz.commands.sizes import MaxMegapixels, foresee
-from skyline_viz.commands.truth_options import TruthOptions, Truths
+from skyline_viz.command_line.sizes import MaxMegapixels, foresee
+from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig
-from skyline_viz.memory import MAX_MEGAPIXELS, RECORDING
+from skyline_viz.running.batch import Failure
+from skyline_viz.system.memory import MAX_MEGAPIXELS, RECORDING
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from skyline_viz.datasets import DatasetItem
-    from skyline_viz.diagnosis_report import Diagnosed
-    from skyline_viz.methods.protocol import Method
-    from skyline_viz.resume import Kept
+    from skyline_viz.datasets.layouts import DatasetItem
+    from skyline_viz.diagnosis.report import Diagnosed
+    from skyline_viz.method import Method
+    from skyline_viz.running.resume import Kept
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Diagnose:
 
     def run(self) -> int:
         """Diagnose all photos that have a truth; return the exit status."""
-        from skyline_viz.diagnosis import checked_tolerance  # noqa: PLC0415
+        from skyline_viz.diagnosis.diagnosing import checked_tolerance  # noqa: PLC0415
 
         if self.folds and self.bank:
             raise UsageError("--folds trains filter banks of its own; leave out --bank.")
@@ -93,7 +93,7 @@ class Diagnose:
             raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
         if self.out:
             output_folder(self.out, dataset)
-        from skyline_viz.resume import Kept  # noqa: PLC0415
+        from skyline_viz.running.resume import Kept  # noqa: PLC0415
 
         workers = foresee(items, self.workers, RECORDING)
         kept = Kept.within(self.out, "diagnose")
@@ -112,14 +112,14 @@ class Diagnose:
     ) -> tuple[Mapping[str, Method], list[Failure]]:
         """The detector of each photo, by its name."""
         if self.methods.given:
-            from skyline_viz.methods.testing import fold_method  # noqa: PLC0415
+            from skyline_viz.evaluation.comparing import fold_method  # noqa: PLC0415
 
             method = self.methods.one(self.bank, self.config, to_train=bool(self.folds))
             return fold_method(items, method, self.folds, self.seed, workers, kept)
         if not self.folds:
             detector = make_detector(self.bank, self.config)
             return {item.name: detector for item in items}, []
-        from skyline_viz.evaluation import fold_detectors  # noqa: PLC0415
+        from skyline_viz.evaluation.cross_validation import fold_detectors  # noqa: PLC0415
 
         return fold_detectors(
             items,
@@ -137,10 +137,10 @@ class Diagnose:
         workers: int,
         kept: Kept,
     ) -> tuple[list[Diagnosed], list[Failure]]:
-        from skyline_viz import diagnosis_record  # noqa: PLC0415
-        from skyline_viz.diagnosis_report import diagnose_item  # noqa: PLC0415
-        from skyline_viz.evaluation import key_of, tests_of  # noqa: PLC0415
-        from skyline_viz.resume import Codec  # noqa: PLC0415
+        from skyline_viz.diagnosis import record as diagnosis_record  # noqa: PLC0415
+        from skyline_viz.diagnosis.report import diagnose_item  # noqa: PLC0415
+        from skyline_viz.evaluation.cross_validation import key_of, tests_of  # noqa: PLC0415
+        from skyline_viz.running.resume import Codec  # noqa: PLC0415
 
         remedies = not (self.no_remedies or self.photo)
         work = partial(diagnose_item, self.tolerance or None, remedies=remedies)
@@ -157,7 +157,7 @@ class Diagnose:
         return found, failures
 
     def _tell(self, name: str, found: list[Diagnosed]) -> None:
-        from skyline_viz import diagnosis_report as report  # noqa: PLC0415
+        from skyline_viz.diagnosis import report  # noqa: PLC0415
 
         if self.photo:
             for one in found:
@@ -171,7 +171,7 @@ class Diagnose:
             say("nothing was diagnosed.")
 
     def _tell_all(self, name: str, found: list[Diagnosed]) -> None:
-        from skyline_viz import diagnosis_report as report  # noqa: PLC0415
+        from skyline_viz.diagnosis import report  # noqa: PLC0415
 
         if found:
             tell(f"{name}: {counted(len(found), 'photo')}")

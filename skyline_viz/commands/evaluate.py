@@ -7,22 +7,35 @@ from typing import TYPE_CHECKING
 
 import tyro
 
-from skyline_viz.commands.inputs import output_folder, with_truth
-from skyline_viz.commands.messages import UsageError, counted, say, status_after, tell, tell_drawn
-from skyline_viz.commands.methods import MethodOptions, Methods
-from skyline_viz.commands.settings import BankFile, Folder, OptionalFolder, Preset, make_detector
-from skyline_viz.commands.sizes import MaxMegapixels, foresee
-from skyline_viz.commands.truth_options import TruthOptions, Truths
+from skyline_viz.command_line.inputs import output_folder, with_truth
+from skyline_viz.command_line.messages import (
+    UsageError,
+    counted,
+    say,
+    status_after,
+    tell,
+    tell_drawn,
+)
+from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.settings import (
+    BankFile,
+    Folder,
+    OptionalFolder,
+    Preset,
+    make_detector,
+)
+from skyline_viz.command_line.sizes import MaxMegapixels, foresee
+from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig
-from skyline_viz.memory import MAX_MEGAPIXELS
+from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from skyline_viz.batch import Failure
-    from skyline_viz.datasets import Dataset, DatasetItem
-    from skyline_viz.results import PhotoResult
-    from skyline_viz.resume import Kept
+    from skyline_viz.datasets.layouts import Dataset, DatasetItem
+    from skyline_viz.evaluation.results import PhotoResult
+    from skyline_viz.running.batch import Failure
+    from skyline_viz.running.resume import Kept
 
 
 @dataclass(frozen=True)
@@ -72,13 +85,13 @@ class Evaluate:
         items = with_truth(dataset)
         if self.out:
             output_folder(self.out, dataset)
-        from skyline_viz.resume import Kept  # noqa: PLC0415
+        from skyline_viz.running.resume import Kept  # noqa: PLC0415
 
         workers = foresee(items, self.workers)
         kept = Kept.within(self.out, "evaluate")
         if self.methods.given:
             return self._compare(dataset, items, workers, kept)
-        from skyline_viz.evaluation import cross_validate, evaluate  # noqa: PLC0415
+        from skyline_viz.evaluation.cross_validation import cross_validate, evaluate  # noqa: PLC0415
 
         if self.folds:
             how = f"{self.folds}-fold cross-validation"
@@ -115,9 +128,9 @@ class Evaluate:
         self, dataset: Dataset, items: Sequence[DatasetItem], workers: int, kept: Kept
     ) -> int:
         """Evaluate the methods that were named."""
-        from skyline_viz import evaluation_report as report  # noqa: PLC0415
+        from skyline_viz.evaluation import report  # noqa: PLC0415
+        from skyline_viz.evaluation.comparing import compare_methods  # noqa: PLC0415
         from skyline_viz.methods.registry import learned_from  # noqa: PLC0415
-        from skyline_viz.methods.testing import compare_methods  # noqa: PLC0415
 
         methods = self.methods.chosen(bank=self.bank, config=self.config, to_train=bool(self.folds))
         for text in self.methods.method:
@@ -151,8 +164,8 @@ class Evaluate:
         results: list[PhotoResult],
         failures: list[Failure],
     ) -> None:
-        from skyline_viz import evaluation_report as report  # noqa: PLC0415
-        from skyline_viz.results import Summary  # noqa: PLC0415
+        from skyline_viz.evaluation import report  # noqa: PLC0415
+        from skyline_viz.evaluation.results import Summary  # noqa: PLC0415
 
         assert self.out is not None
         about = {
@@ -169,8 +182,8 @@ class Evaluate:
 
 
 def _print(title: str, results: list[PhotoResult]) -> None:
-    from skyline_viz.evaluation_report import summary_table, worst_table  # noqa: PLC0415
-    from skyline_viz.results import Summary, worst  # noqa: PLC0415
+    from skyline_viz.evaluation.report import summary_table, worst_table  # noqa: PLC0415
+    from skyline_viz.evaluation.results import Summary, worst  # noqa: PLC0415
 
     tell(title)
     tell_drawn(summary_table(Summary.of(results)), worst_table(worst(results)))

@@ -11,11 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
-from skyline_viz.aftermath import ended
-from skyline_viz.batch import Failure
-from skyline_viz.causes import Cause
-from skyline_viz.commands.inputs import Input, collect, output_folder
-from skyline_viz.commands.messages import (
+from skyline_viz.command_line.inputs import Input, collect, output_folder
+from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
     UsageError,
@@ -25,8 +22,8 @@ from skyline_viz.commands.messages import (
     tell,
     tell_row,
 )
-from skyline_viz.commands.methods import MethodOptions, Methods
-from skyline_viz.commands.settings import (
+from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.settings import (
     BankFile,
     Folder,
     Preset,
@@ -34,16 +31,19 @@ from skyline_viz.commands.settings import (
     check_picture,
     make_detector,
 )
-from skyline_viz.commands.sizes import MaxMegapixels, foresee
-from skyline_viz.commands.truth_options import TruthOptions, Truths
+from skyline_viz.command_line.sizes import MaxMegapixels, foresee
+from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig
-from skyline_viz.endings import told_by_signals
-from skyline_viz.memory import MAX_MEGAPIXELS, RECORDING
+from skyline_viz.diagnosis.causes import Cause
+from skyline_viz.running.batch import Failure
+from skyline_viz.system.aftermath import ended
+from skyline_viz.system.endings import told_by_signals
+from skyline_viz.system.memory import MAX_MEGAPIXELS, RECORDING
 
 if TYPE_CHECKING:
-    from skyline_viz.gallery import Entry
-    from skyline_viz.gallery_table import ServedGallery
-    from skyline_viz.methods.protocol import Method
+    from skyline_viz.gallery.store import Entry
+    from skyline_viz.gallery.table import ServedGallery
+    from skyline_viz.method import Method
 
 LOOK_EVERY = 0.5
 """Seconds between two looks at what was edited in the viewer."""
@@ -142,7 +142,7 @@ def build(
     beside: Method | None = None,
 ) -> tuple[list[Entry], list[Failure]]:
     """Bring a gallery up to date, and return its photos, the worst first, and those that failed."""
-    from skyline_viz.gallery import Gallery, Shot, by_need  # noqa: PLC0415
+    from skyline_viz.gallery.store import Gallery, Shot, by_need  # noqa: PLC0415
 
     shots = [Shot(one.name, one.item) for one in inputs]
     entries: list[Entry] = []
@@ -159,8 +159,8 @@ def build(
 
 def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: Cause | None = None) -> None:
     """Serve a gallery, in a window where there is a display, until it is closed or Ctrl-C."""
-    from skyline_viz.viewer import free_port, has_display, open_viewer  # noqa: PLC0415
-    from skyline_viz.viewer_hand import ended_edits  # noqa: PLC0415
+    from skyline_viz.gallery.hand import ended_edits  # noqa: PLC0415
+    from skyline_viz.viewer.process import free_port, has_display, open_viewer  # noqa: PLC0415
 
     with (
         _served(out, entries, cause) as gallery,
@@ -187,7 +187,7 @@ def show_picture(
     out: Path, entries: Sequence[Entry], path: Path, cause: Cause | None = None
 ) -> None:
     """Draw the cards of a gallery into a file."""
-    from skyline_viz.viewer import save_picture  # noqa: PLC0415
+    from skyline_viz.viewer.process import save_picture  # noqa: PLC0415
 
     with _served(out, entries, cause) as gallery:
         save_picture(gallery.address, path, PICTURE)
@@ -196,7 +196,7 @@ def show_picture(
 
 def list_flags(out: Path) -> int:
     """Print name, whether reviewed (1 or 0) and comment of each photo that has either."""
-    from skyline_viz.gallery import Gallery  # noqa: PLC0415
+    from skyline_viz.gallery.store import Gallery  # noqa: PLC0415
 
     if not out.is_dir():
         raise UsageError(f"{out} is no gallery; --out names its folder.")
@@ -208,8 +208,8 @@ def list_flags(out: Path) -> int:
 
 @contextmanager
 def _served(out: Path, entries: Sequence[Entry], cause: Cause | None) -> Iterator[ServedGallery]:
-    from skyline_viz.gallery import Gallery  # noqa: PLC0415
-    from skyline_viz.gallery_table import served  # noqa: PLC0415
+    from skyline_viz.gallery.store import Gallery  # noqa: PLC0415
+    from skyline_viz.gallery.table import served  # noqa: PLC0415
 
     truth = any(entry.a_err is not None for entry in entries)
     with served(Gallery(out), entries, truth, cause) as gallery:

@@ -12,11 +12,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
-from skyline_viz.aftermath import passing_folder
-from skyline_viz.batch import Failure, sentence
-from skyline_viz.commands import inspect_more
-from skyline_viz.commands.inputs import Input, collect, with_truth
-from skyline_viz.commands.messages import (
+from skyline_viz.command_line.inputs import Input, collect, with_truth
+from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
     UsageError,
@@ -25,8 +22,8 @@ from skyline_viz.commands.messages import (
     status_after,
     tell,
 )
-from skyline_viz.commands.methods import MethodOptions, Methods
-from skyline_viz.commands.settings import (
+from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.settings import (
     BankFile,
     OptionalFolder,
     Preset,
@@ -35,10 +32,14 @@ from skyline_viz.commands.settings import (
     config_of,
     make_detector,
 )
-from skyline_viz.commands.sizes import MaxMegapixels, foresee, pixels_of
-from skyline_viz.commands.truth_options import TruthOptions, Truths
+from skyline_viz.command_line.sizes import MaxMegapixels, foresee, pixels_of
+from skyline_viz.command_line.truth_options import TruthOptions, Truths
+from skyline_viz.commands import inspect_more
 from skyline_viz.config import DetectorConfig, TrainingConfig
-from skyline_viz.memory import (
+from skyline_viz.running.batch import Failure, sentence
+from skyline_viz.running.progress import ProgressBar
+from skyline_viz.system.aftermath import passing_folder
+from skyline_viz.system.memory import (
     FULL_MEGAPIXELS,
     FULL_RECORDING,
     MAX_MEGAPIXELS,
@@ -46,17 +47,16 @@ from skyline_viz.memory import (
     RECORDING_FULL,
     in_words,
 )
-from skyline_viz.progress import ProgressBar
 
 if TYPE_CHECKING:
     import rerun as rr
 
-    from skyline_viz.blueprints import Contents
     from skyline_viz.detector import Detector
     from skyline_viz.filter_bank import FilterBank
-    from skyline_viz.methods.protocol import Method
-    from skyline_viz.recording import Fidelity
+    from skyline_viz.method import Method
     from skyline_viz.skyline import Skyline
+    from skyline_viz.viewer.blueprints import Contents
+    from skyline_viz.viewer.recording import Fidelity
 
 
 @dataclass(frozen=True)
@@ -173,7 +173,7 @@ class Inspect:
         chosen = [f"--{name}" for name in named if getattr(self, name)]
         if len(chosen) > 1:
             raise UsageError(f"{' and '.join(chosen)} exclude each other.")
-        from skyline_viz.viewer import has_display  # noqa: PLC0415  # the viewer is heavy
+        from skyline_viz.viewer.process import has_display  # noqa: PLC0415  # the viewer is heavy
 
         if not chosen and not has_display():
             raise UsageError(
@@ -187,7 +187,7 @@ class Inspect:
         return make_detector(Path(name), self.config)
 
     def _methods(self) -> list[Method]:
-        from skyline_viz.method_recording import COLOURS  # noqa: PLC0415
+        from skyline_viz.viewer.method_recording import COLOURS  # noqa: PLC0415
 
         named = len(self.methods.method) + (self.methods.network is not None)
         if named > len(COLOURS):
@@ -217,9 +217,9 @@ class Inspect:
         failures: list[Failure],
     ) -> list[Path]:
         """Write the recordings, and return their files."""
-        from skyline_viz.names import recording_id  # noqa: PLC0415
         from skyline_viz.photo import PhotoError  # noqa: PLC0415
-        from skyline_viz.recording import fidelity_of, new_recording  # noqa: PLC0415
+        from skyline_viz.system.names import recording_id  # noqa: PLC0415
+        from skyline_viz.viewer.recording import fidelity_of, new_recording  # noqa: PLC0415
 
         of_a_photo = (PhotoError, ValueError, MemoryError)  # what the other photos survive
         groups = [[one] for one in inputs] if self.split else [list(inputs)]
@@ -254,11 +254,11 @@ class Inspect:
         fidelity: Fidelity,
     ) -> Contents:
         """Log a photo of `together` ones, and say what the recording now holds."""
-        from skyline_viz.bank_recording import log_path_bins  # noqa: PLC0415
-        from skyline_viz.blueprints import Contents  # noqa: PLC0415
-        from skyline_viz.comparison import log_comparison  # noqa: PLC0415
-        from skyline_viz.evaluation import warm_up  # noqa: PLC0415
-        from skyline_viz.recording import log_detection  # noqa: PLC0415
+        from skyline_viz.evaluation.cross_validation import warm_up  # noqa: PLC0415
+        from skyline_viz.viewer.bank_recording import log_path_bins  # noqa: PLC0415
+        from skyline_viz.viewer.blueprints import Contents  # noqa: PLC0415
+        from skyline_viz.viewer.comparison import log_comparison  # noqa: PLC0415
+        from skyline_viz.viewer.recording import log_detection  # noqa: PLC0415
 
         photo, truth = one.item.photo(), self._truth_of(one)
         warm_up()
@@ -302,7 +302,7 @@ class Inspect:
         self, one: Input, detector: Detector, failures: list[Failure]
     ) -> list[FilterBank]:
         """Filter banks of all sizes, learned from a data set without the photo."""
-        from skyline_viz.evaluation import train_sizes  # noqa: PLC0415
+        from skyline_viz.evaluation.cross_validation import train_sizes  # noqa: PLC0415
 
         assert self.sweep_training is not None
         dataset = self.truths.open(self.sweep_training)
@@ -323,7 +323,7 @@ class Inspect:
         return given.truth()
 
     def _lay_out(self, recording: rr.RecordingStream, contents: Contents | None) -> None:
-        from skyline_viz.blueprints import detection_blueprint  # noqa: PLC0415
+        from skyline_viz.viewer.blueprints import detection_blueprint  # noqa: PLC0415
 
         if contents is None:
             raise _Nothing
@@ -331,7 +331,7 @@ class Inspect:
 
     def _show(self, files: list[Path]) -> None:
         """Show recordings, and return when nobody looks any more."""
-        from skyline_viz import viewer  # noqa: PLC0415
+        from skyline_viz.viewer import process as viewer  # noqa: PLC0415
 
         if self.headless:
             tell(f"{counted(len(files), 'recording')} made.")
@@ -345,7 +345,7 @@ class Inspect:
         elif self.connect:
             viewer.send(files, self.connect)
         elif self.serve:
-            from skyline_viz.web_viewer import served  # noqa: PLC0415
+            from skyline_viz.viewer.web_viewer import served  # noqa: PLC0415
 
             with served(files) as address, suppress(KeyboardInterrupt):
                 tell(f"Open {address} in a browser. Ctrl-C ends.")

@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from skyline_viz.commands.messages import tell
-from skyline_viz.progress import ProgressBar
+from skyline_viz.command_line.messages import tell
+from skyline_viz.running.progress import ProgressBar
 
 if TYPE_CHECKING:
     import rerun as rr
 
-    from skyline_viz.blueprints import MethodContents
     from skyline_viz.detection import Detection
     from skyline_viz.detector import FilterDetection
-    from skyline_viz.diagnosis import Diagnosis
+    from skyline_viz.diagnosis.diagnosing import Diagnosis
+    from skyline_viz.diagnosis.sweep import Sweep
     from skyline_viz.filter_bank import FilterBank
-    from skyline_viz.methods.protocol import Method
-    from skyline_viz.recording import Fidelity
+    from skyline_viz.method import Method
     from skyline_viz.skyline import Skyline
-    from skyline_viz.sweep import Sweep
+    from skyline_viz.viewer.blueprints import MethodContents
+    from skyline_viz.viewer.recording import Fidelity
 
 _WARM = 64  # rows and columns of a detection before the timed one
 
@@ -28,8 +28,8 @@ def log_diagnosis(
     recording: rr.RecordingStream, found: Detection, truth: Skyline, name: str
 ) -> Diagnosis:
     """Find out why a detection went wrong, and log it where it did."""
-    from skyline_viz.diagnosis import diagnose  # noqa: PLC0415
-    from skyline_viz.diagnosis_recording import log_diagnosis as log_it  # noqa: PLC0415
+    from skyline_viz.diagnosis.diagnosing import diagnose  # noqa: PLC0415
+    from skyline_viz.viewer.diagnosis_recording import log_diagnosis as log_it  # noqa: PLC0415
 
     diagnosis = diagnose(found, truth)
     if not diagnosis.right:
@@ -47,9 +47,9 @@ def log_methods(
     """Detect with other methods and log it; return what the recording now holds of them."""
     if not methods:
         return ()
-    from skyline_viz.blueprints import MethodContents  # noqa: PLC0415
     from skyline_viz.detector import FilterDetection  # noqa: PLC0415
-    from skyline_viz.method_recording import log_methods as log_them  # noqa: PLC0415
+    from skyline_viz.viewer.blueprints import MethodContents  # noqa: PLC0415
+    from skyline_viz.viewer.method_recording import log_methods as log_them  # noqa: PLC0415
 
     for method in methods:  # the first time includes loading compiled loops
         method.detect(found.photo[:_WARM, :_WARM].copy())
@@ -70,7 +70,7 @@ def begin_sweeps(
     recording: rr.RecordingStream, found: FilterDetection, sizes: Sequence[FilterBank]
 ) -> list[Sweep]:
     """Choose what to sweep; what is logged from now on is there on all of the timelines."""
-    from skyline_viz.sweep import setting_sweeps, size_sweep  # noqa: PLC0415
+    from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep  # noqa: PLC0415
 
     sweeps = setting_sweeps(found)
     if sizes:
@@ -89,7 +89,7 @@ def log_sweeps(
     truth: Skyline | None,
 ) -> None:
     """Detect with all values, and log it."""
-    from skyline_viz.sweep_recording import log_sweeps as log_them  # noqa: PLC0415
+    from skyline_viz.viewer.sweep_recording import log_sweeps as log_them  # noqa: PLC0415
 
     with ProgressBar(sum(len(sweep.steps) for sweep in sweeps), "values") as bar:
         log_them(recording, sweeps, found, truth, bar.advance)

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
-from skyline_viz.commands.inputs import output_folder
-from skyline_viz.commands.messages import GOOD, UsageError, counted, tell
-from skyline_viz.commands.settings import Folder
-from skyline_viz.progress import ProgressBar
+from skyline_viz.command_line.inputs import output_folder
+from skyline_viz.command_line.messages import GOOD, UsageError, counted, tell
+from skyline_viz.command_line.settings import Folder
+from skyline_viz.running.progress import ProgressBar
 
 if TYPE_CHECKING:
     from skyline_viz.rendering import Scene

@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING, Annotated, get_args
 
 import tyro
 
-from skyline_viz.commands.inputs import output_folder, with_truth
-from skyline_viz.commands.messages import SOME_FAILED, UsageError, say, status_after, tell
-from skyline_viz.commands.methods import MethodOptions, Methods
-from skyline_viz.commands.settings import Folder, Switch
-from skyline_viz.commands.sizes import MaxMegapixels, foresee
-from skyline_viz.commands.truth_options import TruthOptions, Truths
-from skyline_viz.memory import MAX_MEGAPIXELS
+from skyline_viz.command_line.inputs import output_folder, with_truth
+from skyline_viz.command_line.messages import SOME_FAILED, UsageError, say, status_after, tell
+from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.settings import Folder, Switch
+from skyline_viz.command_line.sizes import MaxMegapixels, foresee
+from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.methods.names import MethodName
+from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
-    from skyline_viz.datasets import DatasetItem
-    from skyline_viz.methods.protocol import Method
-    from skyline_viz.methods.testing import Compared
-    from skyline_viz.resume import Kept
-    from skyline_viz.tables import Table
+    from skyline_viz.datasets.layouts import DatasetItem
+    from skyline_viz.evaluation.comparing import Compared
+    from skyline_viz.evaluation.tables import Table
+    from skyline_viz.method import Method
+    from skyline_viz.running.resume import Kept
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Tables:
     def run(self) -> int:
         """Measure and write; return the exit status."""
         from skyline_viz.methods.registry import make_method  # noqa: PLC0415
-        from skyline_viz.resume import Kept  # noqa: PLC0415
+        from skyline_viz.running.resume import Kept  # noqa: PLC0415
 
         if not self.datasets:
             raise UsageError("which data sets? Name at least one folder.")
@@ -100,7 +100,7 @@ class Tables:
         workers: int,
         kept: Kept,
     ) -> dict[str, Compared]:
-        from skyline_viz.methods.testing import compare_methods  # noqa: PLC0415
+        from skyline_viz.evaluation.comparing import compare_methods  # noqa: PLC0415
 
         measured = {
             name: compare_methods(
@@ -113,8 +113,8 @@ class Tables:
         return measured
 
     def _tables(self, measured: dict[str, Compared], workers: int, kept: Kept) -> list[Table]:
-        from skyline_viz import tables  # noqa: PLC0415
-        from skyline_viz.methods.timing import time_methods  # noqa: PLC0415
+        from skyline_viz.evaluation import tables  # noqa: PLC0415
+        from skyline_viz.evaluation.timing import time_methods  # noqa: PLC0415
 
         sets = {name: compared.items for name, compared in measured.items()}
         studies = []
@@ -136,7 +136,7 @@ class Tables:
         ]
 
     def _write_results(self, measured: dict[str, Compared]) -> None:
-        from skyline_viz.evaluation_report import write_comparison, write_histogram  # noqa: PLC0415
+        from skyline_viz.evaluation.report import write_comparison, write_histogram  # noqa: PLC0415
 
         for name, compared in measured.items():
             folder = self.out / name if len(measured) > 1 else self.out
@@ -149,8 +149,8 @@ class Tables:
                     write_histogram(folder / f"histogram-{method}.png", results, title)
 
     def _write_tables(self, tables: list[Table]) -> None:
+        from skyline_viz.evaluation.tables_report import latex, markdown  # noqa: PLC0415
         from skyline_viz.files import write_text  # noqa: PLC0415
-        from skyline_viz.tables_report import latex, markdown  # noqa: PLC0415
 
         page = markdown(tables)
         write_text(self.out / "tables.md", page)

@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
-from skyline_viz.commands.inputs import output_folder, with_truth
-from skyline_viz.commands.messages import GOOD, UsageError, counted, status_after, tell
-from skyline_viz.commands.settings import Folder, Preset
-from skyline_viz.commands.sizes import MaxMegapixels, foresee
-from skyline_viz.commands.truth_options import TruthOptions, Truths
+from skyline_viz.command_line.inputs import output_folder, with_truth
+from skyline_viz.command_line.messages import GOOD, UsageError, counted, status_after, tell
+from skyline_viz.command_line.settings import Folder, Preset
+from skyline_viz.command_line.sizes import MaxMegapixels, foresee
+from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.config import TrainingConfig
-from skyline_viz.memory import MAX_MEGAPIXELS
 from skyline_viz.methods.names import MethodName
+from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from skyline_viz.datasets import DatasetItem
-    from skyline_viz.methods.protocol import LearnedMethod
+    from skyline_viz.datasets.layouts import DatasetItem
+    from skyline_viz.method import LearnedMethod
 
 MethodToTrain: TypeAlias = Annotated[MethodName, tyro.conf.arg(metavar="METHOD")]
 
@@ -77,7 +77,7 @@ class Train:
             return self._train_method(dataset.name, items)
         if self.pretrained is not None:
             raise UsageError("--pretrained is for FCNs and SegNet, not for our filter bank.")
-        from skyline_viz.evaluation import train_on  # noqa: PLC0415
+        from skyline_viz.evaluation.cross_validation import train_on  # noqa: PLC0415
 
         bank, failures = train_on(
             items,
@@ -102,7 +102,7 @@ class Train:
         return replace(method, width=1.0, pretrained=self.pretrained)
 
     def _train_method(self, dataset: str, items: Sequence[DatasetItem]) -> int:
-        from skyline_viz.methods.protocol import LearnedMethod  # noqa: PLC0415
+        from skyline_viz.method import LearnedMethod  # noqa: PLC0415
         from skyline_viz.methods.registry import Trained, make_method, save_method  # noqa: PLC0415
 
         if self.training != TrainingConfig():

@@ -29,11 +29,11 @@ import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, Bool
-from skyline_viz.datasets import DatasetItem
+from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.edges import to_grey
+from skyline_viz.method import MethodError, Model, shown_to_learners
 from skyline_viz.methods.extras import needed
 from skyline_viz.methods.network_trial import try_network
-from skyline_viz.methods.protocol import MethodError, Model, shown_to_learners
 from skyline_viz.methods.score_images import (
     BEFORE,
     PATCH,

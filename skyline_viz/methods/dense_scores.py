@@ -14,10 +14,10 @@ import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, Bool
-from skyline_viz.datasets import DatasetItem
+from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.edges import to_grey
+from skyline_viz.method import Model, shown_to_learners
 from skyline_viz.methods.extras import needed
-from skyline_viz.methods.protocol import Model, shown_to_learners
 from skyline_viz.methods.score_images import (
     BEFORE,
     LEAST_DEVIATION,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any, Literal
 
-from skyline_viz.methods.protocol import MethodError
+from skyline_viz.method import MethodError
 
 _INSTALLED_AS = {"sklearn": "scikit-learn"}
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from skyline_viz.arrays import U8
-from skyline_viz.detector import FRAME_SHARE
-from skyline_viz.edges import find_edges
+from skyline_viz.edges import FRAME_SHARE, find_edges
 
 FRAME_ROWS = 4
 """Rows at the top and at the bottom in which a frame's edge is looked for."""
@@ -14,7 +13,7 @@ def without_frame(photo: U8, low: float = 50.0, high: float = 220.0) -> U8:
     """The photo with the rows of its frame painted like the first row inside.
 
     A row near the top or the bottom that is an edge over more than half of its length is one of a
-    frame, as in `detector.candidate_edges`. Painting it over, instead of leaving out its edges,
+    frame, as in `edges.candidate_edges`. Painting it over, instead of leaving out its edges,
     removes its gradients as well.
 
     Args:

@@ -13,9 +13,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from skyline_viz.aftermath import ended, started
+from skyline_viz.method import MethodError
 from skyline_viz.methods.network_child import MEMORY
-from skyline_viz.methods.protocol import MethodError
+from skyline_viz.system.aftermath import ended, started
 
 SECONDS = 120
 """Processor time that opening and one run may take."""

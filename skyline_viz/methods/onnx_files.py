@@ -17,8 +17,8 @@ import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8
+from skyline_viz.method import MethodError
 from skyline_viz.methods.network_trial import remember, try_network
-from skyline_viz.methods.protocol import MethodError
 
 MOST_BYTES = 1 << 31
 """Bytes that a network's file may have: no protocol buffer is larger."""

@@ -20,11 +20,11 @@ import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, check_photo
-from skyline_viz.datasets import DatasetItem
+from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.detection import Detection, timed
+from skyline_viz.method import LearnedMethod, MethodError, Model, shown_to_learners
 from skyline_viz.methods.extras import needed
 from skyline_viz.methods.onnx_files import HoldsNetwork, Network, normalised, padded
-from skyline_viz.methods.protocol import LearnedMethod, MethodError, Model, shown_to_learners
 from skyline_viz.methods.sky_boundary import detect_boundary
 from skyline_viz.methods.sky_network import MEAN, STD, enlarged, sigmoid
 

@@ -24,7 +24,7 @@ import torch
 from torch import nn
 from torch.nn import functional as fn
 
-from skyline_viz.methods.protocol import MethodError
+from skyline_viz.method import MethodError
 
 Architecture: TypeAlias = Literal["fcn-8s", "fcn-16s", "fcn-32s", "segnet"]
 """The networks, as their methods are called."""

@@ -17,9 +17,9 @@ from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, FilterBankError
-from skyline_viz.headed_npz import HeadedNpz, NpzError, opened
+from skyline_viz.method import LearnedMethod, Method, MethodError
 from skyline_viz.methods.names import MethodName
-from skyline_viz.methods.protocol import LearnedMethod, Method, MethodError
+from skyline_viz.system.headed_npz import HeadedNpz, NpzError, opened
 
 NAMES: tuple[str, ...] = get_args(MethodName)
 """All names, in the order of the paper's Table I."""

@@ -32,8 +32,8 @@ import numpy.typing as npt
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
 from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import edge_pixels, find_edges
+from skyline_viz.method import LearnedMethod, near_truth
 from skyline_viz.methods.gradient import gradient_cost
-from skyline_viz.methods.protocol import LearnedMethod, near_truth
 from skyline_viz.methods.stable_edges import stable_edges
 from skyline_viz.skyline import Skyline, SkylineError
 

@@ -41,15 +41,15 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
-from skyline_viz.datasets import DatasetItem
+from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import edge_pixels
+from skyline_viz.method import LearnedMethod, Model, shown_to_learners
 from skyline_viz.methods.descriptors import LENGTH, describe, project
 from skyline_viz.methods.edges_only import RULED_OUT, fill_gaps, ruled_out_but
 from skyline_viz.methods.extras import needed
 from skyline_viz.methods.frames import without_frame
 from skyline_viz.methods.gradient import gradient_cost
-from skyline_viz.methods.protocol import LearnedMethod, Model, shown_to_learners
 from skyline_viz.methods.stable_edges import stable_edges
 from skyline_viz.skyline import Skyline
 

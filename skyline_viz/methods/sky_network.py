@@ -24,8 +24,8 @@ import numpy as np
 
 from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.detection import Detection, timed
+from skyline_viz.method import MethodError
 from skyline_viz.methods.onnx_files import HoldsNetwork, Network, normalised, padded, read_network
-from skyline_viz.methods.protocol import MethodError
 from skyline_viz.methods.sky_boundary import detect_boundary
 
 MEAN = (0.485, 0.456, 0.406)

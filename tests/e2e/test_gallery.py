@@ -5,30 +5,29 @@ import os
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
 from skyline_viz.cli import main
+from skyline_viz.command_line.inputs import collect
+from skyline_viz.command_line.settings import make_detector
 from skyline_viz.commands.gallery import PICTURE, build
-from skyline_viz.commands.inputs import collect
-from skyline_viz.commands.settings import make_detector
 from skyline_viz.config import DetectorConfig
-from skyline_viz.gallery import Flag, Gallery
-from skyline_viz.gallery_table import served
-from skyline_viz.viewer import (
+from skyline_viz.gallery.hand import ended_edits
+from skyline_viz.gallery.store import Flag, Gallery
+from skyline_viz.gallery.table import served
+from skyline_viz.viewer.process import (
     PROGRAM,
     headless_viewer,
     settled_picture,
     show_tab,
     tab_names,
 )
-from skyline_viz.viewer_hand import ended_edits
-from tests.e2e.robot import Robot, listening, until, viewer_port
+from testing import SAMPLES
+from testing.robot import Robot, listening, until, viewer_port
 
-SAMPLES = Path(__file__).resolve().parents[2] / "sample_data"
 NAMES = ["hazy-1", "spires-5", "rover-2"]  # the worst first
 
 

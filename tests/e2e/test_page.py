@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 
-from annotate.live_wire import LiveWire
-from skyline_viz.metrics import a_err
+from annotate.engine.live_wire import LiveWire
+from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline
-from tests.e2e.browser import Page, chromium
-from tests.labelling import DETECTOR, served, write_hills
+from testing.browser import Page, chromium
+from testing.labelling import DETECTOR, served, write_hills
 
 HEIGHT, WIDTH = 240, 400
 

@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from tests.e2e.browser import Page, chromium
-from tests.labelling import asked, served, write_hills
+from testing.browser import Page, chromium
+from testing.labelling import asked, served, write_hills
 
 SIZE = {"height": 240, "width": 400}
 

@@ -6,9 +6,9 @@ import pytest
 
 from benchmarks.reliability.page import worked
 from skyline_viz.photo import write_photo
-from tests.e2e.browser import Page, chromium
-from tests.e2e.restarts import Restarted, kept_anchors
-from tests.labelling import hills, served, write_hills
+from testing.browser import Page, chromium
+from testing.labelling import hills, served, write_hills
+from testing.restarts import Restarted, kept_anchors
 
 SIZE = {"height": 240, "width": 400}
 

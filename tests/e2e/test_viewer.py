@@ -2,16 +2,15 @@
 
 import re
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.blueprints import TABS
 from skyline_viz.cli import main
 from skyline_viz.tensor import tensor_map
-from skyline_viz.viewer import (
+from skyline_viz.viewer.blueprints import TABS
+from skyline_viz.viewer.process import (
     PROGRAM,
     ViewerError,
     headless_viewer,
@@ -19,9 +18,9 @@ from skyline_viz.viewer import (
     show_tab,
     tab_names,
 )
-from tests.e2e.robot import Robot, listening, until, viewer_port
+from testing import SAMPLES
+from testing.robot import Robot, listening, until, viewer_port
 
-SAMPLES = Path(__file__).resolve().parents[2] / "sample_data"
 HARMLESS = ("rasterizer", "Docker", "lookup address")  # what a machine without a screen is told
 
 

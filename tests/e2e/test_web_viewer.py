@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from annotate.operations import SetAnchor
+from annotate.store.operations import SetAnchor
 from skyline_viz.cli import main
 from skyline_viz.overlay import PATH, TRUTH
-from skyline_viz.web_viewer import served as served_recordings
-from tests.e2e.browser import chromium
-from tests.labelling import TOKEN, served, workbench, write_hills
+from skyline_viz.viewer.web_viewer import served as served_recordings
+from testing.browser import chromium
+from testing.labelling import TOKEN, served, workbench, write_hills
 
 PATIENCE = 120_000  # milliseconds: the viewer draws without a graphics card
 

@@ -1,0 +1,2 @@
+from .engine.live_wire import LiveWire as LiveWire
+from .store.labels import Label as Label

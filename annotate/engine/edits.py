@@ -1,0 +1,243 @@
+"""What an annotator has asked of a skyline: anchors, spans, the forbidden brush, hidden columns.
+
+`Edits` is a value: each change gives a new one, and the order of changes does not need to be known
+to solve it. Where two changes contradict each other, the later one holds: an anchor takes the place
+of the straight span in whose columns it lies, and of a piece of a drawn one; a span takes the place
+of anchors and cuts other spans. Anchors and spans are stronger than the brush, which only steers
+what is solved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from types import MappingProxyType
+from typing import Literal
+
+import cv2
+import numpy as np
+
+from skyline_viz.arrays import Bool
+from skyline_viz.constraints import Anchor, StraightSpan
+
+SpanKind = Literal["straight", "drawn"]
+"""How a span came about: a straight line between two pixels, or drawn by hand."""
+
+
+ORIGINS = ("proposal", "solved", "straight", "drawn")
+"""Where the row of a column is from: offered by the detector and not changed since; solved under
+what the annotator asked for; on a straight span; drawn by hand."""
+
+
+class EditError(ValueError):
+    """An edit does not make sense for the photo; the message is one sentence that says why."""
+
+
+@dataclass(frozen=True)
+class Span:
+    """Columns in which the annotator has fixed the row of the line."""
+
+    kind: SpanKind
+    first: int
+    """Its first column."""
+
+    rows: tuple[int, ...]
+    """Row in each of its columns."""
+
+    @property
+    def last(self) -> int:
+        """Its last column."""
+        return self.first + len(self.rows) - 1
+
+    def without(self, first: int, last: int) -> list[Span]:
+        """What is left of it when the columns from `first` to `last` are cut out."""
+        left = self.rows[: max(first - self.first, 0)]
+        right = self.rows[max(last + 1 - self.first, 0) :]
+        parts = [(self.first, left), (self.last + 1 - len(right), right)]
+        return [Span(self.kind, start, rows) for start, rows in parts if rows]
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A stroke of the brush: where the line must not go, or, of the eraser, may go again."""
+
+    points: tuple[tuple[int, int], ...]
+    """Column and row of its centre line."""
+
+    radius: int
+    """Half its width, in pixels."""
+
+    allow: bool = False
+    """Whether it is the eraser's."""
+
+    @cached_property
+    def columns(self) -> tuple[int, int]:
+        """First and last column that it may touch."""
+        across = [column for column, _ in self.points]
+        return min(across) - self.radius - 1, max(across) + self.radius + 1
+
+
+@dataclass(frozen=True)
+class Edits:
+    """All that an annotator has asked for on one photo of `height` rows and `width` columns."""
+
+    height: int
+    width: int
+    anchors: Mapping[int, int] = field(default_factory=lambda: MappingProxyType({}))
+    """Row of the anchor of each column that has one."""
+
+    spans: tuple[Span, ...] = ()
+    """Columns with fixed rows; no two of them share a column."""
+
+    strokes: tuple[Stroke, ...] = ()
+    """Strokes of the brush and of its eraser, in their order."""
+
+    hidden: tuple[tuple[int, int], ...] = ()
+    """First and last column of each run in which the line cannot be seen, from left to right."""
+
+    def anchor(self, column: int, row: int) -> Edits:
+        """Let the line pass through a pixel."""
+        self._require_inside(column, row)
+        around = max(self.width // 50, 8)
+        spans: list[Span] = []
+        for span in self.spans:
+            if not span.first <= column <= span.last:
+                spans.append(span)
+            elif span.kind == "drawn":
+                spans += span.without(column - around, column + around)
+        return self._with(anchors={**self.anchors, column: row}, spans=spans)
+
+    def move(self, from_column: int, column: int, row: int) -> Edits:
+        """Move an anchor to another pixel."""
+        return self.remove(from_column).anchor(column, row)
+
+    def remove(self, column: int) -> Edits:
+        """Take an anchor away."""
+        if column not in self.anchors:
+            raise EditError(f"there is no anchor in column {column}.")
+        return self._with(anchors={one: row for one, row in self.anchors.items() if one != column})
+
+    def straight(self, column: int, row: int, to_column: int, to_row: int) -> Edits:
+        """Let the line be straight between two pixels, which may be given in either order."""
+        self._require_inside(column, row)
+        self._require_inside(to_column, to_row)
+        if column == to_column:
+            raise EditError("a straight span begins and ends in different columns.")
+        start, end = sorted([Anchor(column, row), Anchor(to_column, to_row)])
+        rows = tuple(StraightSpan(start, end).rows().tolist())
+        return self._span(Span("straight", start.column, rows))
+
+    def draw(self, first: int, rows: Iterable[int]) -> Edits:
+        """Let the line be what was drawn by hand, a row a column from column `first` on."""
+        span = Span("drawn", first, tuple(rows))
+        if not span.rows:
+            raise EditError("a drawn span has at least one column.")
+        for column, row in ((first, min(span.rows)), (span.last, max(span.rows))):
+            self._require_inside(column, row)
+        return self._span(span)
+
+    def forbid(
+        self, points: Iterable[tuple[int, int]], radius: int, *, allow: bool = False
+    ) -> Edits:
+        """Keep the line out of a stroke of the brush; with `allow`, erase what was forbidden."""
+        stroke = Stroke(tuple((column, row) for column, row in points), radius, allow)
+        if not stroke.points or radius < 0:
+            raise EditError("a stroke has at least one point, and a radius of 0 or more.")
+        if stroke.columns[1] < 0 or stroke.columns[0] >= self.width:
+            raise EditError("the stroke lies outside the photo.")
+        return self._with(strokes=(*self.strokes, stroke))
+
+    def hide(self, first: int, last: int, *, hidden: bool = True) -> Edits:
+        """Say that the line cannot be seen in columns `first` to `last`, or can be seen again."""
+        first, last = self._require_columns(first, last)
+        mask = self.hidden_mask()
+        mask[first : last + 1] = hidden
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]])))
+        runs = edges.reshape(-1, 2).tolist()
+        return self._with(hidden=tuple((start, stop - 1) for start, stop in runs))
+
+    def release(self, first: int, last: int) -> Edits:
+        """Drop everything asked for in columns `first` to `last`, and strokes that begin there."""
+        first, last = self._require_columns(first, last)
+        kept = {one: row for one, row in self.anchors.items() if not first <= one <= last}
+        spans = [part for span in self.spans for part in span.without(first, last)]
+        strokes = [one for one in self.strokes if not first <= one.points[0][0] <= last]
+        return self._with(anchors=kept, spans=spans, strokes=strokes).hide(
+            first, last, hidden=False
+        )
+
+    def one_anchor_after(self, before: Edits) -> tuple[int, int, int | None] | None:
+        """Column and row of the anchor by which these edits differ, where that is all.
+
+        Returns:
+            Its column, its row, and the column of the anchor that was moved there, None for a new
+            anchor. None when something else differs, too.
+        """
+        if (self.spans, self.strokes) != (before.spans, before.strokes):
+            return None
+        new = dict(self.anchors.items() - before.anchors.items())
+        old = dict(before.anchors.items() - self.anchors.items())
+        if len(new) != 1 or len(old) > 1:
+            return None
+        return (*new.popitem(), next(iter(old), None))
+
+    def hidden_mask(self) -> Bool:
+        """``(W,)`` True where the line cannot be seen."""
+        mask: Bool = np.zeros(self.width, np.bool_)
+        for first, last in self.hidden:
+            mask[first : last + 1] = True
+        return mask
+
+    def _span(self, span: Span) -> Edits:
+        spans = [part for one in self.spans for part in one.without(span.first, span.last)]
+        kept = {at: row for at, row in self.anchors.items() if not span.first <= at <= span.last}
+        return self._with(anchors=kept, spans=[*spans, span])
+
+    def _with(
+        self,
+        anchors: Mapping[int, int] | None = None,
+        spans: Iterable[Span] | None = None,
+        strokes: Iterable[Stroke] | None = None,
+        hidden: tuple[tuple[int, int], ...] | None = None,
+    ) -> Edits:
+        return replace(
+            self,
+            anchors=self.anchors if anchors is None else MappingProxyType(dict(anchors)),
+            spans=self.spans if spans is None else tuple(spans),
+            strokes=self.strokes if strokes is None else tuple(strokes),
+            hidden=self.hidden if hidden is None else hidden,
+        )
+
+    def _require_inside(self, column: int, row: int) -> None:
+        if not (0 <= column < self.width and 0 <= row < self.height):
+            raise EditError(
+                f"column {column}, row {row} lies outside the photo of "
+                f"{self.width}x{self.height} pixels."
+            )
+
+    def _require_columns(self, first: int, last: int) -> tuple[int, int]:
+        first, last = min(first, last), max(first, last)
+        if last < 0 or first >= self.width:
+            raise EditError(f"columns {first} to {last} lie outside the photo.")
+        return max(first, 0), min(last, self.width - 1)
+
+
+def paint(strokes: Iterable[Stroke], height: int, width: int, onto: Bool | None = None) -> Bool:
+    """Pixels that strokes forbid, ``(W, H)``, column by column as path tables are.
+
+    Args:
+        strokes: The strokes, in their order.
+        height: Rows of the photo.
+        width: Its columns.
+        onto: Pixels that earlier strokes forbid; it is painted on.
+    """
+    painted: Bool = np.zeros((width, height), np.bool_) if onto is None else onto
+    mask = painted.view(np.uint8)
+    for stroke in strokes:
+        colour = 0 if stroke.allow else 1
+        points = [(row, column) for column, row in stroke.points]  # x runs down a column here
+        for start, end in zip(points, [*points[1:], points[-1]], strict=True):
+            cv2.line(mask, start, end, colour, 2 * stroke.radius + 1)
+            cv2.circle(mask, end, stroke.radius, colour, -1)
+    return painted

@@ -1,0 +1,373 @@
+"""The live wire: constraints in, skyline out, fast enough to follow the cursor.
+
+The line is the cheapest whole path under everything that the annotator has asked for. A column
+whose row is fixed (by an anchor or a span) splits the problem, so two tables of the cheapest costs,
+from the left and from the right, are kept for each run of free columns:
+
+- the cheapest line through any pixel is two walks through them: a preview needs no search;
+- an anchor leaves the tables on its far sides valid: only the run in which it lies is swept again,
+  and only when the next question is asked;
+- their sum tells the min-marginals: margins, and other lines through the same column.
+
+Two anchors that are steeper than `delta` allows are joined by a straight line: a cliff can be
+labelled, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numba
+import numpy as np
+import numpy.typing as npt
+
+from annotate.engine.edits import ORIGINS, Edits, paint
+from annotate.engine.plan import Plan, Run, Stale, make_plan
+from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
+from skyline_viz.constraints import Anchor, PathError, StraightSpan
+from skyline_viz.method import Method
+from skyline_viz.path import cheapest_end, sweep, trace
+from skyline_viz.skyline import Skyline
+from skyline_viz.uncertainty import APART, column_margin
+
+_POOL = ThreadPoolExecutor(2, "sweep")
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """Another line: the cheapest one through a pixel of a column."""
+
+    row: int
+    """Row of that pixel."""
+
+    detour: float
+    """How much dearer than the current line it is."""
+
+
+class LiveWire:
+    """A photo's skyline while it is labelled.
+
+    >>> photo = np.full((40, 60, 3), 200, np.uint8)
+    >>> photo[25:] = 60
+    >>> from skyline_viz import Detector
+    >>> wire = LiveWire(photo, Detector())
+    >>> wire.skyline.rows[:3]
+    array([25., 25., 25.], dtype=float32)
+    >>> float(wire.anchor(30, 20).rows[30])
+    20.0
+    """
+
+    def __init__(self, photo: U8, detector: Method | None) -> None:
+        """Find the proposal.
+
+        Args:
+            photo: ``(H, W, 3)`` uint8 RGB.
+            detector: What proposes; None to label blind: nothing is proposed and nothing solved,
+                and anchors are joined by straight lines.
+        """
+        check_photo(photo)
+        self.height, self.width = photo.shape[:2]
+        self.blind = detector is None
+        self.proposal: Skyline | None = None
+        if detector is None:
+            cost, self._delta, self._link_weight = np.zeros((self.height, 0), np.float32), 0, 0.0
+            forward = np.zeros((0, self.height))
+        else:
+            detection = detector.detect(photo)
+            cost, forward = detection.cost, detection.forward.T
+            self.proposal = detection.skyline
+            self._delta = min(detection.delta, self.height - 1)
+            self._link_weight = float(detection.link_weight)
+            del detection  # its other planes, before these two are copied
+        self._cost: F32 = np.ascontiguousarray(cost.T)
+        del cost
+        forward = np.array(forward)
+        self._allowed = self._cost  # a copy with infinite costs where the brush forbids
+        self._reach = np.full(max(len(self._cost) - 1, 0), self._delta, np.int32)
+        self._forward, self._backward = forward, np.empty_like(forward)
+        self._margins = np.full(self.width, np.inf)
+        self._tabled: Plan | None = None  # what the tables belong to
+        self._edits = Edits(self.height, self.width)
+        self._plan = self._planned(self._edits)
+        self._rows: Int | None = None
+        if self.proposal is not None:
+            self._rows = self.proposal.rows.astype(np.int32)
+
+    @property
+    def edits(self) -> Edits:
+        """Everything that has been asked for. Set it to undo, or to go on where one stopped.
+
+        Raises:
+            PathError: No line is possible under it; nothing has changed then.
+        """
+        return self._edits
+
+    @edits.setter
+    def edits(self, edits: Edits) -> None:
+        plan = self._planned(edits)
+        rows: Int | None
+        if plan == self._plan:
+            rows = self._rows
+        elif self.blind and plan.free.any():
+            rows = None
+        elif (moved := edits.one_anchor_after(self._edits)) is not None:
+            rows = self._through(*moved)
+        else:
+            rows = self._solved(plan)
+        self._edits, self._plan, self._rows = edits, plan, rows
+
+    @property
+    def skyline(self) -> Skyline:
+        """The line as it is.
+
+        Raises:
+            PathError: The photo is labelled blind, and nothing has been drawn.
+        """
+        if self._rows is None:
+            raise PathError("nothing has been drawn on this photo yet.")
+        return self._line(self._rows)
+
+    @property
+    def empty(self) -> bool:
+        """Whether there is no line yet, because the photo is labelled blind."""
+        return self._rows is None
+
+    @property
+    def origin(self) -> npt.NDArray[np.uint8]:
+        """``(W,)`` where the row of each column is from, as an index into `edits.ORIGINS`."""
+        origin = np.full(self.width, ORIGINS.index("solved"), np.uint8)
+        if self.proposal is not None and self._rows is not None:
+            origin[self._rows == self.proposal.rows] = ORIGINS.index("proposal")
+        origin[self._plan.straight] = ORIGINS.index("straight")
+        for span in self._edits.spans:
+            origin[span.first : span.last + 1] = ORIGINS.index(span.kind)
+        return origin
+
+    @property
+    def margin(self) -> F64:
+        """``(W,)`` margin of each column; infinite where its row is fixed, or nothing is solved."""
+        self.refresh()
+        return self._margins.copy()
+
+    def anchor(self, column: int, row: int) -> Skyline:
+        """Let the line pass through a pixel, and return it.
+
+        Raises:
+            EditError: Outside the photo.
+            PathError: Nothing leads there past what is forbidden.
+        """
+        return self._change(lambda edits: edits.anchor(int(column), int(row)))
+
+    def straight(self, column: int, row: int, to_column: int, to_row: int) -> Skyline:
+        """Let the line be straight between two pixels, see `Edits.straight`."""
+        return self._change(lambda edits: edits.straight(column, row, to_column, to_row))
+
+    def draw(self, first: int, rows: Iterable[int]) -> Skyline:
+        """Let the line be what was drawn by hand, see `Edits.draw`."""
+        return self._change(lambda edits: edits.draw(first, rows))
+
+    def forbid(
+        self, points: Iterable[tuple[int, int]], radius: int, *, allow: bool = False
+    ) -> Skyline:
+        """Keep the line out of a stroke of the brush, see `Edits.forbid`."""
+        return self._change(lambda edits: edits.forbid(points, radius, allow=allow))
+
+    def hide(self, first: int, last: int, *, hidden: bool = True) -> Skyline:
+        """Say where the line cannot be seen, see `Edits.hide`."""
+        return self._change(lambda edits: edits.hide(first, last, hidden=hidden))
+
+    def preview(self, column: int, row: int, lifted: int | None = None) -> Skyline:
+        """The line as it would be with one more anchor; nothing changes.
+
+        Args:
+            column: Column of the anchor.
+            row: Its row.
+            lifted: Column of an anchor that is being dragged, and counts no more.
+
+        Raises:
+            EditError: Outside the photo, or there is no anchor in column `lifted`.
+            PathError: Nothing leads there past what is forbidden.
+        """
+        return self._line(self._through(int(column), int(row), lifted))
+
+    def alternatives(self, column: int, most: int = 4) -> list[Alternative]:
+        """Other lines through a column: local minima of its min-marginals, the cheapest first."""
+        if self._rows is None or self.blind:
+            return []
+        row = int(self._rows[column])
+        plan = self._planned(self._edits.anchor(column, row).remove(column))
+        self.refresh(plan)
+        if not plan.free[column]:
+            return []
+        through = self._min_marginals(column)
+        apart = max(APART, self.height // 100)
+        found: list[Alternative] = []
+        best = through[row]
+        padded = np.concatenate([[np.inf], through, [np.inf]])
+        lowest = (through <= padded[:-2]) & (through <= padded[2:]) & np.isfinite(through)
+        for candidate in sorted(np.flatnonzero(lowest).tolist(), key=lambda one: through[one]):
+            taken = [row, *(one.row for one in found)]
+            if all(abs(candidate - one) > apart for one in taken):
+                found.append(Alternative(candidate, max(float(through[candidate] - best), 0.0)))
+            if len(found) == most:
+                break
+        return found
+
+    def refresh(self, plan: Plan | None = None) -> None:
+        """Bring the tables up to date: what would else be done when the next question is asked."""
+        plan = plan or self._plan
+        if self.blind or plan == self._tabled:
+            return
+        changed = self._repaint(plan)
+        stale = plan.stale(self._tabled, changed)
+        for job in [_POOL.submit(self._sweep, part) for part in stale]:
+            job.result()
+        self._tabled = plan
+        self._margins[~plan.free] = np.inf
+        for run in {part.run for part in stale}:
+            _measure(
+                self._allowed,
+                self._forward,
+                self._backward,
+                run.left + 1,
+                run.right,
+                APART,
+                self._margins,
+            )
+
+    def _change(self, how: Callable[[Edits], Edits]) -> Skyline:
+        self.edits = how(self._edits)
+        return self.skyline
+
+    def _planned(self, edits: Edits) -> Plan:
+        return make_plan(edits, None if self.blind else self._delta)
+
+    def _line(self, rows: Int) -> Skyline:
+        return Skyline(rows=rows.astype(np.float32), visible=~self._edits.hidden_mask())
+
+    def _through(self, column: int, row: int, lifted: int | None) -> Int:
+        """Rows of the line with one more anchor; walks where the column is free."""
+        edits = self._edits if lifted is None else self._edits.remove(lifted)
+        anchored = edits.anchor(column, row)  # drops the span in which it lies
+        if self.blind:
+            return self._solved(self._planned(anchored))
+        free = self._planned(anchored.remove(column))
+        base = self._rows if free == self._plan else None
+        rows = self._solved(free).copy() if base is None else base.copy()
+        self.refresh(free)
+        run = free.run_at(column)
+        if run is None:  # a cliff between two anchors
+            return self._solved(self._planned(anchored))
+        rows[column] = row
+        self._walk(rows, column, run, self._forward, run.left)
+        self._walk(rows, column, run, self._backward, run.right)
+        return rows
+
+    def _walk(self, rows: Int, column: int, run: Run, table: F64, end: int) -> None:
+        """Fill the rows between a pixel and the end of its run, on one side."""
+        step = 1 if end > column else -1
+        end_row = run.left_row if step < 0 else run.right_row
+        row = int(rows[column])
+        if end_row is not None and abs(row - end_row) > self._delta * abs(end - column):
+            start, stop = sorted([Anchor(column, row), Anchor(end, end_row)])
+            rows[start.column : stop.column + 1] = StraightSpan(start, stop).rows()
+            return
+        if end == column + step:  # nothing between them
+            return
+        near = slice(max(row - self._delta, 0), row + self._delta + 1)
+        if not np.isfinite(table[column + step, near]).any():
+            raise PathError(f"nothing leads to column {column}, row {row} past what is forbidden.")
+        trace(table, self._reach, self._link_weight, rows, column, end - step)
+
+    def _solved(self, plan: Plan) -> Int:
+        """Rows of the cheapest line of a plan."""
+        rows = plan.fixed.copy()
+        self.refresh(plan)
+        for run in plan.runs:
+            if run.right_row is None:
+                rows[-1] = cheapest_end(self._forward[-1])
+                if not np.isfinite(self._forward[-1, rows[-1]]):
+                    raise PathError("no line leads to the right edge past what is forbidden.")
+                trace(
+                    self._forward, self._reach, self._link_weight, rows, run.right - 1, run.left + 1
+                )
+            else:
+                near = max(run.right_row - self._delta, 0)
+                before = self._forward[run.right - 1, near : run.right_row + self._delta + 1]
+                if not np.isfinite(before).any():
+                    raise PathError(
+                        f"no line leads to column {run.right}, row {run.right_row} "
+                        "past what is forbidden."
+                    )
+                trace(self._forward, self._reach, self._link_weight, rows, run.right, run.left + 1)
+        return rows
+
+    def _min_marginals(self, column: int) -> F64:
+        cost = self._allowed[column].astype(np.float64)
+        through: F64 = np.full(self.height, np.inf)
+        possible = np.isfinite(cost)
+        whole = self._forward[column] + self._backward[column]
+        np.subtract(whole, cost, out=through, where=possible)
+        return through
+
+    def _repaint(self, plan: Plan) -> tuple[int, int] | None:
+        """Apply a plan's strokes to the costs; return the first and last column that changed."""
+        before = self._tabled.strokes if self._tabled else ()
+        if plan.strokes == before:
+            return None
+        same = 0
+        for one, other in zip(before, plan.strokes, strict=False):
+            if one is not other and one != other:
+                break
+            same += 1
+        touched = [stroke.columns for stroke in (*before[same:], *plan.strokes[same:])]
+        first = max(min(one for one, _ in touched), 0)
+        last = min(max(one for _, one in touched), self.width - 1)
+        if self._allowed is self._cost:
+            self._allowed = self._cost.copy()
+        part = slice(first, last + 1)
+        mask: Bool = np.zeros((self.width, self.height), np.bool_)
+        if same == len(before):  # strokes were added only: they are painted on what is there
+            mask[part] = self._allowed[part] != self._cost[part]
+            strokes = plan.strokes[same:]
+        else:
+            strokes = tuple(
+                one for one in plan.strokes if one.columns[0] <= last and one.columns[1] >= first
+            )
+        self._allowed[part] = self._cost[part]
+        self._allowed[part][paint(strokes, self.height, self.width, mask)[part]] = np.inf
+        return first, last
+
+    def _sweep(self, part: Stale) -> None:
+        """Fill a part of a table."""
+        run = part.run
+        if part.forward:
+            table, step, fixed, row = self._forward, 1, run.left, run.left_row
+        else:
+            table, step, fixed, row = self._backward, -1, run.right, run.right_row
+        start = part.first - step
+        if start == fixed and row is None:
+            table[part.first] = self._allowed[part.first]
+            start = part.first
+        elif start == fixed:
+            table[start] = np.inf
+            table[start, row] = 0.0
+        sweep(self._allowed, self._reach, self._link_weight, table, start, part.last)
+
+
+@numba.njit(cache=True, nogil=True)
+def _measure(
+    columns: F32, forward: F64, backward: F64, first: int, stop: int, apart: int, margins: F64
+) -> None:
+    """Margins of the columns from `first` up to, not including, `stop`."""
+    height = columns.shape[1]
+    through = np.empty(height)
+    for column in range(first, stop):
+        for row in range(height):
+            cost = columns[column, row]
+            through[row] = forward[column, row] + backward[column, row] - cost
+            if np.isinf(cost):
+                through[row] = np.inf
+        margins[column] = column_margin(through, apart)

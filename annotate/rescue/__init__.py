@@ -1,0 +1,1 @@
+"""Labels of a damaged folder: what can be read is saved."""

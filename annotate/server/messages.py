@@ -1,0 +1,255 @@
+"""What the server is asked and what it answers, as JSON."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from annotate.engine.edits import ORIGINS, Stroke
+from annotate.store.operations import Operation, Place, Status, spoken
+from annotate.store.store import Card
+from annotate.work.session import Session
+from annotate.work.workbench import Progress
+from skyline_viz.arrays import F64, Int
+from skyline_viz.system.memory import photo_limit
+
+Revision = Annotated[int, Field(ge=-1, le=2**62)]
+"""The revision that a request was made on; -1 for any."""
+
+
+RequestId = Annotated[str, Field(pattern=r"^[A-Za-z0-9-]{1,64}$")]
+"""Made by the page for each change: when it comes again, it is the same change, done once."""
+
+
+class _Request(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class Apply(_Request):
+    """Do an operation."""
+
+    id: RequestId
+    revision: Revision
+    operation: Operation
+
+
+class Step(_Request):
+    """Undo or redo."""
+
+    id: RequestId
+    revision: Revision
+
+
+class Pixel(_Request):
+    """Where the cursor is, and which anchor it drags, if any."""
+
+    column: Place
+    row: Place
+    lifted: Place | None = None
+
+
+class Nothing(_Request):
+    """A request that says nothing but that it is one."""
+
+
+class ShownPhoto(BaseModel):
+    """A photo in the list."""
+
+    id: int
+    name: str
+    width: int
+    height: int
+    status: Status
+    tags: tuple[str, ...]
+    margin: float | None
+    blind: bool
+    missing: bool
+    too_large: bool
+    """Whether it is over the limit, and will not be read."""
+
+    seconds: float
+    problem: str
+    """Why its label cannot be read; empty where it can."""
+
+    @classmethod
+    def of(cls, card: Card, *, missing: bool) -> ShownPhoto:
+        """Show a card."""
+        photo = card.photo
+        return cls(
+            id=photo.id,
+            name=shown_name(photo.name),
+            width=photo.width,
+            height=photo.height,
+            status=card.status,  # type: ignore[arg-type]  # the log holds nothing else
+            tags=card.tags,
+            margin=finite(card.margin),
+            blind=card.blind,
+            missing=missing,
+            too_large=photo.height * photo.width > photo_limit() * 1e6,
+            seconds=card.seconds,
+            problem=card.problem,
+        )
+
+
+class ShownProgress(BaseModel):
+    """How far a pass is."""
+
+    done: int
+    total: int
+    seconds_a_photo: float | None
+    seconds_left: float | None
+
+    @classmethod
+    def of(cls, progress: Progress) -> ShownProgress:
+        """Show a progress."""
+        return cls(**vars(progress))
+
+
+class PhotoList(BaseModel):
+    """All photos, in their order."""
+
+    folder: str
+    annotator: str
+    number: int
+    tags: tuple[str, ...]
+    photos: list[ShownPhoto]
+    progress: ShownProgress
+
+
+class ShownSpan(BaseModel):
+    """A span."""
+
+    kind: str
+    first: int
+    last: int
+
+
+class Document(BaseModel):
+    """A photo with everything that was done to it."""
+
+    id: int
+    name: str
+    width: int
+    height: int
+    revision: int
+    status: Status
+    tags: tuple[str, ...]
+    blind: bool
+    rows: list[int] | None
+    hidden: tuple[tuple[int, int], ...]
+    anchors: list[tuple[int, int]]
+    spans: list[ShownSpan]
+    forbidden: tuple[Stroke, ...]
+    can_undo: bool
+    can_redo: bool
+    undo_what: str | None
+    """What undo will take back, in words: ``the anchor``, ``accepted``."""
+
+    kept: int | None
+    """The revision that the change got which this answers; None where it answers none."""
+
+    origins: dict[str, int]
+    doubtful: int | None
+    """A column that a diagnosis asks to look at."""
+
+    @classmethod
+    def of(cls, session: Session, doubtful: int | None, kept: int | None = None) -> Document:
+        """Show a session; hold its lock meanwhile."""
+        wire, state, edits = session.wire, session.state, session.wire.edits
+        counts = np.bincount(wire.origin, minlength=len(ORIGINS)).tolist()
+        return cls(
+            id=session.photo.id,
+            name=shown_name(session.photo.name),
+            width=session.photo.width,
+            height=session.photo.height,
+            revision=state.revision,
+            status=state.status,
+            tags=state.tags,
+            blind=session.blind,
+            rows=None if wire.empty else wire.skyline.rows.astype(int).tolist(),
+            hidden=edits.hidden,
+            anchors=sorted(edits.anchors.items()),
+            spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
+            forbidden=edits.strokes,
+            can_undo=bool(state.steps),
+            can_redo=bool(state.taken),
+            undo_what=spoken(state.steps[-1].change) if state.steps else None,
+            kept=kept,
+            origins=dict(zip(ORIGINS, counts, strict=True)),
+            doubtful=doubtful,
+        )
+
+
+class Part(BaseModel):
+    """The part of a line that differs from the current one."""
+
+    first: int
+    rows: list[int]
+
+    @classmethod
+    def of(cls, rows: Int, before: Int | None) -> Part:
+        """What differs, and a column more on either side, so that it can be joined."""
+        first, stop = 0, len(rows)
+        if before is not None:
+            changed = np.flatnonzero(rows != before)
+            if len(changed) == 0:
+                return cls(first=0, rows=[])
+            first, stop = max(int(changed[0]) - 1, 0), int(changed[-1]) + 2
+        return cls(first=first, rows=rows[first:stop].tolist())
+
+
+class Margins(BaseModel):
+    """How sure the line is, column by column; null where its row is fixed."""
+
+    revision: int
+    margins: list[float | None]
+    uncertain: list[int]
+
+    @classmethod
+    def of(cls, revision: int, margins: F64) -> Margins:
+        """Show margins, and the least certain columns, apart from each other."""
+        apart = max(len(margins) // 20, 1)
+        uncertain: list[int] = []
+        for column in np.argsort(margins, kind="stable").tolist():
+            if len(uncertain) == _MOST_UNCERTAIN or not math.isfinite(margins[column]):
+                break
+            if all(abs(column - one) >= apart for one in uncertain):
+                uncertain.append(column)
+        values = [finite(value, 4) for value in margins.tolist()]
+        return cls(revision=revision, margins=values, uncertain=uncertain)
+
+
+class ShownAlternative(BaseModel):
+    """Another line through a column."""
+
+    row: int
+    detour: float
+
+
+class Alternatives(BaseModel):
+    """Other lines through a column, the cheapest first."""
+
+    alternatives: list[ShownAlternative]
+
+
+class Sheet(BaseModel):
+    """A page of straightened strips."""
+
+    photos: list[ShownPhoto]
+    pages: int
+
+
+_MOST_UNCERTAIN = 20
+
+
+def finite(value: float | None, digits: int = 6) -> float | None:
+    """A number that JSON can hold, or None."""
+    return None if value is None or not math.isfinite(value) else round(value, digits)
+
+
+def shown_name(name: str) -> str:
+    """A file's name as text: bytes that are no text become question marks."""
+    return name.encode("utf-8", "replace").decode("utf-8")

@@ -1,0 +1,117 @@
+"""Routes of one photo: what was done to it, previews, and everything that changes it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from fastapi import APIRouter, HTTPException, Response
+
+from annotate.server.dependencies import Bench, Column, PhotoId
+from annotate.server.messages import (
+    Alternatives,
+    Apply,
+    Document,
+    Margins,
+    Part,
+    Pixel,
+    ShownAlternative,
+    Step,
+)
+from annotate.server.stage_viewer import stages
+from annotate.store.store import StaleError
+from annotate.work.session import Session
+from annotate.work.workbench import Workbench
+from skyline_viz.photo import PhotoError
+
+router = APIRouter(prefix="/photos/{photo}")
+
+BLIND = "the photo is labelled blind, so nothing of the detector is shown."
+
+
+@router.get("")
+def document(bench: Bench, photo: PhotoId) -> Document:
+    """A photo with everything that was done to it; the next one is prepared meanwhile."""
+    session = bench.session(photo)
+    bench.prepare_after(photo)
+    with session.lock:
+        return Document.of(session, bench.doubts.get(photo))
+
+
+@router.get("/margins")
+def margins(bench: Bench, photo: PhotoId) -> Margins:
+    """How sure the line is, column by column."""
+    session = bench.session(photo)
+    with session.lock:
+        return Margins.of(session.state.revision, session.wire.margin)
+
+
+@router.post("/preview")
+def preview(bench: Bench, photo: PhotoId, pixel: Pixel) -> Part:
+    """The part of the line that an anchor would change."""
+    session = bench.session(photo)
+    with session.lock:
+        wire = session.wire
+        rows = wire.preview(pixel.column, pixel.row, pixel.lifted).rows.astype(int)
+        return Part.of(rows, None if wire.empty else wire.skyline.rows.astype(int))
+
+
+@router.get("/alternatives/{column}")
+def alternatives(bench: Bench, photo: PhotoId, column: Column) -> Alternatives:
+    """Other lines through a column."""
+    session = bench.session(photo)
+    if column >= session.photo.width:
+        raise HTTPException(422, f"the photo has {session.photo.width} columns.")
+    with session.lock:
+        found = session.wire.alternatives(column)
+    return Alternatives(
+        alternatives=[ShownAlternative(row=one.row, detour=one.detour) for one in found]
+    )
+
+
+@router.post("/operations")
+def operate(bench: Bench, photo: PhotoId, asked: Apply) -> Document:
+    """Do something to a photo. When this is answered, it is on the disk."""
+    return _change(
+        bench, photo, lambda session: session.apply(asked.operation, asked.revision, asked.id)
+    )
+
+
+@router.post("/undo")
+def undo(bench: Bench, photo: PhotoId, asked: Step) -> Document:
+    """Take the last edit or status back."""
+    return _change(bench, photo, lambda session: session.undo(asked.revision, asked.id))
+
+
+@router.post("/redo")
+def redo(bench: Bench, photo: PhotoId, asked: Step) -> Document:
+    """Do again what was taken back."""
+    return _change(bench, photo, lambda session: session.redo(asked.revision, asked.id))
+
+
+@router.get("/recording", response_class=Response)
+def recording(bench: Bench, photo: PhotoId) -> Response:
+    """The stages of a photo for Rerun's viewer, with the line as it is now as truth."""
+    session = bench.session(photo)
+    if session.blind:
+        raise HTTPException(403, BLIND)
+    with session.lock:
+        line = session.wire.skyline
+    data = stages(bench.detection(photo), line, session.photo.name)
+    return Response(data, media_type="application/octet-stream")
+
+
+def _change(bench: Workbench, photo: int, how: Callable[[Session], int]) -> Document:
+    session = bench.session(photo)
+    try:
+        with session.lock:
+            kept = how(session)
+            document = Document.of(session, bench.doubts.get(photo), kept)
+    except StaleError as error:
+        if error.revision != session.state.revision:  # another program has changed the label
+            bench.close_photo(photo)
+        raise
+    except PhotoError:
+        bench.close_photo(photo)  # to be read again
+        raise
+    bench.refresh(session)
+    return document

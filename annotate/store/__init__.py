@@ -1,0 +1,1 @@
+"""What is kept: labels, their history, and which photo each belongs to."""

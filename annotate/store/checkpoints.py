@@ -1,0 +1,121 @@
+"""A state as bytes, so that a long log need not be folded from its beginning.
+
+A checkpoint saves time and is never trusted further: what is damaged, of another version, or does
+not fit the log counts as none, and the log is folded instead.
+"""
+
+from __future__ import annotations
+
+import zlib
+from types import MappingProxyType
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from annotate.engine.edits import Edits, Span, SpanKind, Stroke
+from annotate.store.history import State, Step
+from annotate.store.operations import Change, Status
+
+EVERY = 100
+"""Operations of a label from one checkpoint to the next."""
+
+_VERSION = 1  # to be raised whenever the same log gives another state
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class _Span(_Part):
+    kind: SpanKind
+    first: int
+    rows: tuple[int, ...]
+
+
+class _Stroke(_Part):
+    points: tuple[tuple[int, int], ...]
+    radius: int
+    allow: bool
+
+
+class _Checkpoint(_Part):
+    version: Literal[1]
+    label: int
+    height: int
+    width: int
+    anchors: list[tuple[int, int]]
+    spans: tuple[_Span, ...]
+    strokes: tuple[_Stroke, ...]
+    hidden: tuple[tuple[int, int], ...]
+    steps: list[tuple[Change, Status]]
+    taken: tuple[Change, ...]
+    status: Status
+    tags: tuple[str, ...]
+    seconds: float
+    at: float | None
+    count: int
+    last: int
+    revision: int
+
+
+def packed(state: State, label: int) -> bytes:
+    """Bytes of the state of a label, without its line: JSON, zlib-compressed."""
+    edits = state.edits
+    checkpoint = _Checkpoint.model_construct(
+        version=_VERSION,
+        label=label,
+        height=edits.height,
+        width=edits.width,
+        anchors=list(edits.anchors.items()),
+        spans=tuple(_Span.model_construct(**vars(one)) for one in edits.spans),
+        strokes=tuple(
+            _Stroke.model_construct(points=one.points, radius=one.radius, allow=one.allow)
+            for one in edits.strokes
+        ),
+        hidden=edits.hidden,
+        steps=[(one.change, one.status) for one in state.steps],
+        taken=state.taken,
+        status=state.status,
+        tags=state.tags,
+        seconds=state.seconds,
+        at=state.at,
+        count=state.count,
+        last=state.last,
+        revision=state.revision,
+    )
+    return zlib.compress(checkpoint.model_dump_json(by_alias=True).encode(), 1)
+
+
+def unpacked(data: bytes, label: int, empty: Edits) -> State | None:
+    """The state that `packed` was given, but for its line; None where the bytes are of no use.
+
+    Args:
+        data: The bytes.
+        label: The label that they should belong to.
+        empty: No edits, of the size of its photo.
+    """
+    try:
+        found = _Checkpoint.model_validate_json(zlib.decompress(data))
+    except (zlib.error, TypeError, ValidationError):  # not compressed, no bytes, or not whole
+        return None
+    if (found.label, found.height, found.width) != (label, empty.height, empty.width):
+        return None
+    return State(
+        edits=Edits(
+            found.height,
+            found.width,
+            MappingProxyType(dict(found.anchors)),
+            tuple(Span(**vars(one)) for one in found.spans),
+            tuple(Stroke(**vars(one)) for one in found.strokes),
+            found.hidden,
+        ),
+        steps=tuple(Step(change, status) for change, status in found.steps),
+        taken=found.taken,
+        status=found.status,
+        tags=found.tags,
+        seconds=found.seconds,
+        at=found.at,
+        count=found.count,
+        last=found.last,
+        revision=found.revision,
+    )

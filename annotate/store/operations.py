@@ -1,0 +1,215 @@
+"""What an annotator can do to a photo, as it is sent by the page and kept in the log.
+
+Each operation is checked for form here (types, sizes) and for sense where it is applied, by `Edits`
+and by the live wire. What undo takes back is told in the words of `spoken`.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, Strict, TypeAdapter
+
+from annotate.engine.edits import Edits
+from annotate.store.labels import STATUSES
+
+Place: TypeAlias = Annotated[int, Field(ge=-100_000, le=100_000)]
+"""A row or a column; whether it lies inside the photo is checked against the photo."""
+
+Point: TypeAlias = Annotated[tuple[Place, Place], Strict(False)]
+"""Column and row; JSON knows lists only, which are no tuples to those who are strict."""
+
+Points: TypeAlias = Annotated[list[Point], Field(min_length=1, max_length=5000)]
+"""Column and row of each point of a stroke."""
+
+Status: TypeAlias = Literal["to do", "in progress", "accepted", "needs review", "rejected"]
+"""How far a photo is."""
+
+assert Status.__args__ == STATUSES  # type: ignore[attr-defined]
+
+
+class _Operation(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class SetAnchor(_Operation):
+    """The line passes through a pixel."""
+
+    kind: Literal["anchor"] = "anchor"
+    column: Place
+    row: Place
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with the anchor."""
+        return edits.anchor(self.column, self.row)
+
+
+class MoveAnchor(_Operation):
+    """An anchor is dragged."""
+
+    kind: Literal["move"] = "move"
+    from_column: Place
+    column: Place
+    row: Place
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with the anchor elsewhere."""
+        return edits.move(self.from_column, self.column, self.row)
+
+
+class RemoveAnchor(_Operation):
+    """An anchor is taken away."""
+
+    kind: Literal["remove"] = "remove"
+    column: Place
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits without the anchor."""
+        return edits.remove(self.column)
+
+
+class Forbid(_Operation):
+    """A stroke of the brush, or of its eraser."""
+
+    kind: Literal["forbid"] = "forbid"
+    points: Points
+    radius: Annotated[int, Field(ge=0, le=1000)]
+    allow: bool = False
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with the stroke."""
+        return edits.forbid(self.points, self.radius, allow=self.allow)
+
+
+class Straight(_Operation):
+    """The line is straight between two pixels."""
+
+    kind: Literal["straight"] = "straight"
+    column: Place
+    row: Place
+    to_column: Place
+    to_row: Place
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with the straight span."""
+        return edits.straight(self.column, self.row, self.to_column, self.to_row)
+
+
+class Draw(_Operation):
+    """The line is drawn by hand."""
+
+    kind: Literal["drawn"] = "drawn"
+    first: Place
+    rows: Annotated[list[Place], Field(min_length=1, max_length=100_000)]
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with the drawn span."""
+        return edits.draw(self.first, self.rows)
+
+
+class Hide(_Operation):
+    """The line cannot be seen in some columns, or can be seen again."""
+
+    kind: Literal["hidden"] = "hidden"
+    first: Place
+    last: Place
+    hidden: bool = True
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with the columns hidden or visible."""
+        return edits.hide(self.first, self.last, hidden=self.hidden)
+
+
+class Release(_Operation):
+    """What was asked for in some columns is dropped."""
+
+    kind: Literal["release"] = "release"
+    first: Place
+    last: Place
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits without it."""
+        return edits.release(self.first, self.last)
+
+
+class SetTag(_Operation):
+    """A tag is put on the photo, or taken off."""
+
+    kind: Literal["tag"] = "tag"
+    tag: Annotated[str, Field(min_length=1, max_length=80, pattern=r"^[^\x00-\x1f]+$")]
+    on_photo: Annotated[bool, Field(alias="on")] = True
+
+
+class SetStatus(_Operation):
+    """The photo is accepted, rejected, or to be looked at again."""
+
+    kind: Literal["status"] = "status"
+    status: Status
+
+
+class Open(_Operation):
+    """The photo is shown: the clock starts."""
+
+    kind: Literal["open"] = "open"
+
+
+class Undo(_Operation):
+    """What was done last is taken back."""
+
+    kind: Literal["undo"] = "undo"
+    status: bool = False
+    """Whether changes of the status count, too, and an edit gives back the status that was before
+    it. Logs of version 1 know no such undo: theirs takes back the last edit, and nothing else."""
+
+
+class Redo(_Operation):
+    """What was taken back is done again."""
+
+    kind: Literal["redo"] = "redo"
+    status: bool = False
+    """Whether changes of the status count, too, as for `Undo`."""
+
+
+Edit: TypeAlias = Annotated[
+    SetAnchor | MoveAnchor | RemoveAnchor | Forbid | Straight | Draw | Hide | Release,
+    Field(discriminator="kind"),
+]
+"""What changes the line."""
+
+Change: TypeAlias = Edit | SetStatus
+"""What can be undone."""
+
+Operation: TypeAlias = Annotated[Edit | SetTag | SetStatus | Open, Field(discriminator="kind")]
+"""Anything that the page does to a photo, but for undo and redo."""
+
+Logged: TypeAlias = Annotated[Operation | Undo | Redo, Field(discriminator="kind")]
+"""Anything that is kept in the log."""
+
+LOGGED: TypeAdapter[Logged] = TypeAdapter(Logged)
+"""Reads an operation from the log."""
+
+_SPOKEN = {
+    "anchor": "the anchor",
+    "move": "the move of the anchor",
+    "remove": "the removal of the anchor",
+    "forbid": "the brush stroke",
+    "straight": "the straight span",
+    "drawn": "the drawn span",
+    "hidden": "the hidden columns",
+    "release": "the release of the columns",
+}
+
+
+def spoken(change: Change) -> str:
+    """What was done, in words that follow *undo*: ``the anchor``, ``accepted``.
+
+    >>> spoken(SetAnchor(column=3, row=4)), spoken(SetStatus(status="accepted"))
+    ('the anchor', 'accepted')
+    """
+    if isinstance(change, SetStatus):
+        return change.status
+    if isinstance(change, Forbid) and change.allow:
+        return "the eraser stroke"
+    if isinstance(change, Hide) and not change.hidden:
+        return "the columns shown again"
+    return _SPOKEN[change.kind]

@@ -1,0 +1,79 @@
+"""Truths that a diagnosis doubts: which photos to look at, and where."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from annotate.store.store import Photo
+
+CAUSE = "truth doubtful"
+"""The cause of segments whose annotation is to be checked."""
+
+
+VERSION = 1
+"""The version of diagnoses that is read."""
+
+
+class DoubtsError(ValueError):
+    """A file holds no diagnosis; the message is one sentence that says why."""
+
+
+def read_doubts(path: Path) -> dict[str, int]:
+    """The column to look at for each doubtful photo, in the middle of its longest segment.
+
+    Args:
+        path: ``diagnosis.json``, as ``skyline-viz diagnose --out`` writes it.
+
+    Raises:
+        DoubtsError: It cannot be read, or is something else.
+    """
+    if not path.exists():
+        raise DoubtsError(f"{path} does not exist.")
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        reason = (error.strerror or "it is broken").lower()
+        raise DoubtsError(f"{path} cannot be read: {reason}.") from error
+    except (ValueError, RecursionError) as error:
+        raise DoubtsError(f"{path} holds no diagnosis: it is not JSON.") from error
+    if not isinstance(document, dict) or document.get("format") != "skyline-diagnosis":
+        raise DoubtsError(f"{path} holds no diagnosis.")
+    if document.get("version") != VERSION:
+        raise DoubtsError(f"{path} is not a diagnosis of version {VERSION}, the only one known.")
+    try:
+        return _doubted(document)
+    except (ValueError, KeyError, TypeError, IndexError, OverflowError) as error:
+        raise DoubtsError(f"{path} holds a diagnosis that is damaged.") from error
+
+
+def _doubted(document: dict[str, Any]) -> dict[str, int]:
+    found = {}
+    for photo in document["photos"]:
+        runs = [_columns(one["columns"]) for one in photo["segments"] if one["cause"] == CAUSE]
+        if runs:
+            first, last = max(runs, key=lambda run: run[1] - run[0])
+            found[str(photo["name"])] = (first + last) // 2
+    return found
+
+
+def _columns(run: Sequence[float]) -> tuple[int, int]:
+    first, last = run
+    return int(first), int(last)
+
+
+def columns_of(doubts: dict[str, int], photos: Iterable[Photo]) -> dict[int, int]:
+    """The column to look at for each photo of a folder that is doubtful, by the photo's id.
+
+    Diagnoses name photos as data sets do, by their stem.
+    """
+    found = {}
+    for photo in photos:
+        name = PurePosixPath(photo.name)
+        for known in (photo.name, name.name, name.stem):
+            if known in doubts:
+                found[photo.id] = min(max(doubts[known], 0), photo.width - 1)
+                break
+    return found

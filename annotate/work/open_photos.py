@@ -1,0 +1,178 @@
+"""Which photos stay open: as many as a number of bytes allows, and the one that is shown."""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from concurrent.futures import Future
+from typing import Generic, TypeVar
+
+import numpy as np
+
+from annotate.store.opened import BusyError
+from annotate.store.store import Photo
+from skyline_viz.detection import Detection
+from skyline_viz.system.memory import available, in_words
+
+BUDGET = 1_500_000_000
+"""Bytes that open photos and what is kept of them may take; the shown one stays in any case."""
+
+OPEN_AT_MOST = 3
+"""Photos that are of use: the one that is shown, the one before, and the next."""
+
+SESSION = 27
+"""Bytes a pixel of an open photo: its pixels (3), nodal costs (4) and those without what the brush
+forbids (4), and the two tables of the live wire (8 each)."""
+
+BLIND = 3
+"""Bytes a pixel of an open photo that is labelled blind: its pixels."""
+
+OPENING = 32
+"""Bytes a pixel at the worst moment of opening one: measured up to 32, on noise, where every third
+pixel is an edge."""
+
+Value = TypeVar("Value")
+
+
+def require_room(photo: Photo) -> None:
+    """Refuse to open a photo that does not fit into what is left of the memory.
+
+    Raises:
+        BusyError: It does not; the message says what it needs.
+    """
+    need, free = OPENING * photo.height * photo.width, available()
+    if free is not None and need > free:
+        raise BusyError(
+            f"{photo.name} has {photo.height * photo.width / 1e6:.0f} megapixels and needs about "
+            f"{in_words(need)} of memory to open, and {in_words(free)} are free."
+        )
+
+
+def detection_bytes(detection: Detection) -> int:
+    """Bytes that keeping a detection takes, besides its photo's pixels."""
+    arrays = [value for value in vars(detection).values() if isinstance(value, np.ndarray)]
+    arrays += detection.maps.values()
+    return sum(one.nbytes for one in arrays if one is not detection.photo)
+
+
+class OpenPhotos(Generic[Value]):
+    """Open photos by id, each with the bytes that it takes. Methods may be called by any thread."""
+
+    def __init__(self, budget: int = BUDGET) -> None:
+        """Begin with none.
+
+        Args:
+            budget: Bytes that all of them may take together.
+        """
+        self._budget = budget
+        self._photos: OrderedDict[int, tuple[Future[Value], int]] = OrderedDict()
+        self._shown: int | None = None
+        self._beside = 0
+        self._lock = threading.RLock()
+
+    @property
+    def open(self) -> list[int]:
+        """The open photos, the least recently used first."""
+        with self._lock:
+            return list(self._photos)
+
+    @property
+    def total(self) -> int:
+        """Bytes that they take, with what is kept beside them."""
+        with self._lock:
+            return sum(size for _, size in self._photos.values()) + self._beside
+
+    def get(self, photo: int) -> Future[Value] | None:
+        """What an open photo is or will be; None where it is closed."""
+        with self._lock:
+            return self._photos[photo][0] if photo in self._photos else None
+
+    def take(self, photo: int, size: int) -> tuple[Future[Value], bool]:
+        """What a photo is or will be, and whether the caller has to open it.
+
+        The least recently used ones are closed until it fits; that which is shown is never closed.
+        """
+        with self._lock:
+            if photo in self._photos:
+                self._photos.move_to_end(photo)
+                return self._photos[photo][0], False
+            future: Future[Value] = Future()
+            self._photos[photo] = future, size
+            self._make_room(photo)
+            return future, True
+
+    def show(self, photo: int) -> None:
+        """From now on this photo is the one that stays, and the one before may be closed."""
+        with self._lock:
+            self._shown = photo
+            self._make_room(photo)
+
+    def fits(self, size: int) -> bool:
+        """Whether a photo of so many bytes fits beside the one that is shown."""
+        with self._lock:
+            shown = self._photos.get(self._shown) if self._shown is not None else None
+            return (shown[1] if shown else 0) + self._beside + size <= self._budget
+
+    def keep_beside(self, photo: int, size: int) -> bool:
+        """Whether something of so many bytes may be kept of a photo; it counts from now on.
+
+        It takes the place of what was kept before. Other photos are closed for it.
+        """
+        with self._lock:
+            self._beside = 0
+            own = self._photos[photo][1] if photo in self._photos else 0
+            if own + size > self._budget:
+                return False
+            self._beside = size
+            self._make_room(photo)
+            return True
+
+    def drop_beside(self) -> None:
+        """Nothing is kept of a photo any more."""
+        with self._lock:
+            self._beside = 0
+
+    def close(self, photo: int) -> None:
+        """Forget a photo."""
+        with self._lock:
+            self._photos.pop(photo, None)
+
+    def close_others(self, photo: int) -> None:
+        """Forget all but one photo and the one that is shown."""
+        with self._lock:
+            for one in [one for one in self._photos if one not in (photo, self._shown)]:
+                del self._photos[one]
+
+    def _make_room(self, newest: int) -> None:
+        closable = [one for one in self._photos if one not in (newest, self._shown)]
+        while closable and (len(self._photos) > OPEN_AT_MOST or self.total > self._budget):
+            del self._photos[closable.pop(0)]
+
+
+class SmallPictures:
+    """Pictures by photo, up to a number of bytes; the least recently used ones go first."""
+
+    def __init__(self, budget: int = 64_000_000) -> None:
+        """Begin with none.
+
+        Args:
+            budget: Bytes that all of them may take together.
+        """
+        self._budget, self._total = budget, 0
+        self._pictures: OrderedDict[int, bytes] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def get(self, photo: int) -> bytes | None:
+        """The picture of a photo; None where it is not kept."""
+        with self._lock:
+            if photo in self._pictures:
+                self._pictures.move_to_end(photo)
+            return self._pictures.get(photo)
+
+    def keep(self, photo: int, picture: bytes) -> None:
+        """Keep a picture, and forget others for it."""
+        with self._lock:
+            self._total += len(picture) - len(self._pictures.pop(photo, b""))
+            self._pictures[photo] = picture
+            while self._total > self._budget:
+                self._total -= len(self._pictures.popitem(last=False)[1])

@@ -1,0 +1,173 @@
+"""A photo that is being labelled: its live wire and its log, which always agree."""
+
+from __future__ import annotations
+
+import threading
+
+from annotate.engine.edits import EditError, Edits
+from annotate.engine.live_wire import LiveWire
+from annotate.store.kept_states import Request, StaleError
+from annotate.store.label_table import require_fit
+from annotate.store.lines import Line
+from annotate.store.opened import Opened
+from annotate.store.operations import Logged, Open, Operation, Redo, SetStatus, SetTag, Undo
+from annotate.store.store import Photo, Store
+from skyline_viz.arrays import U8
+from skyline_viz.constraints import PathError
+from skyline_viz.evaluation.verdict import Verdict
+from skyline_viz.method import Method
+
+
+class Session:
+    """A photo, open for labelling. Its methods may be called from several threads."""
+
+    def __init__(
+        self, store: Store, photo: Photo, label: int, detector: Method, *, blind: bool
+    ) -> None:
+        """Read the photo, and find its proposal or what has been made of it.
+
+        Args:
+            store: Where labels are kept.
+            photo: The photo.
+            label: The label to work on.
+            detector: What proposes, unless the label has begun with another one.
+            blind: Whether nothing is proposed.
+
+        Raises:
+            PhotoError: The photo has vanished, or cannot be read any more.
+        """
+        self.photo, self.label, self.blind = photo, label, blind
+        self.lock = threading.RLock()
+        self._store = store
+        self._opened = Opened(store, photo)
+        self.pixels: U8 = self._opened.pixels
+        kept = store.detector(label)
+        self.detector = kept if kept and store.state(label).revision else detector
+        self.wire = LiveWire(self.pixels, None if blind else self.detector)
+        self.state = store.state(label)
+        if self.state.revision == 0 and not blind:
+            margin = Verdict.of(self.wire.skyline, self.wire.margin, photo.height, None).margin
+            store.propose(label, self._line(), self.detector, margin)
+            self.state = store.state(label)
+        self._resume()
+
+    def apply(self, operation: Operation, revision: int, id: str | None = None) -> int:  # noqa: A002
+        """Do something, and keep it: when this returns, it is on the disk.
+
+        Args:
+            operation: What to do.
+            revision: The revision that it was made on; -1 for any.
+            id: What it is known by when it comes again; nothing is done then.
+
+        Returns:
+            The revision that it got, now or when it came first.
+
+        Raises:
+            StaleError: The photo has another revision, or the id is another operation's.
+            EditError: It makes no sense for the photo.
+            PathError: No line is possible then.
+            PhotoError: The photo's file holds other pixels than those that are open.
+            StoreError: It could not be kept. In all cases nothing has changed.
+        """
+        revision = -1 if isinstance(operation, Open) else revision  # to look at it needs none
+        with self.lock:
+            asked = self._asked(operation, revision, id)
+            kept = self._store.known(asked)
+            if kept is not None:
+                return kept
+            self._confirm()
+            if isinstance(operation, SetStatus):
+                self._require_sense(operation)
+            if isinstance(operation, SetTag | SetStatus | Open):
+                return self._append(asked, None)
+            return self._edit(operation.on(self.wire.edits), asked)
+
+    def undo(self, revision: int, id: str | None = None) -> int:  # noqa: A002
+        """Take the last edit or status back; arguments, result and errors are those of `apply`."""
+        return self._step(Undo(status=True), revision, id)
+
+    def redo(self, revision: int, id: str | None = None) -> int:  # noqa: A002
+        """Do again what was taken back; arguments, result and errors are those of `apply`."""
+        return self._step(Redo(status=True), revision, id)
+
+    def _confirm(self) -> None:
+        """Make sure that an operation can be kept, and is of the photo that is open.
+
+        The labels come first: where the whole folder is away, it may come back with its photos.
+        """
+        self._store.confirm_place()
+        self._opened.confirm()
+
+    def refresh(self) -> None:
+        """Do now what the next preview would wait for."""
+        with self.lock:
+            self.wire.refresh()
+
+    def _step(self, operation: Undo | Redo, revision: int, known_by: str | None) -> int:
+        with self.lock:
+            asked = self._asked(operation, revision, known_by)
+            kept = self._store.known(asked)
+            if kept is not None:
+                return kept
+            self._confirm()
+            state = self.state
+            if not (state.steps if isinstance(operation, Undo) else state.taken):
+                raise EditError(f"there is nothing to {operation.kind}.")
+            after = state.after(operation, 0.0, 0).edits
+            if after == state.edits:  # a status: the line stays, whoever has solved it
+                return self._append(asked, self._kept_line())
+            return self._edit(after, asked)
+
+    def _require_sense(self, operation: SetStatus) -> None:
+        """Refuse a status that says nothing new, which undo would not find, or nothing at all."""
+        if operation.status == self.state.status:
+            raise EditError(f"{self.photo.name} is {operation.status} already.")
+        if operation.status == "accepted" and self.wire.empty:
+            raise EditError(f"{self.photo.name} has no line yet, so there is nothing to accept.")
+
+    def _edit(self, edits: Edits, asked: Request) -> int:
+        before = self.wire.edits
+        self.wire.edits = edits
+        try:
+            return self._append(asked, self._kept_line())
+        except BaseException:
+            self.wire.edits = before
+            raise
+
+    def _append(self, asked: Request, line: Line | None) -> int:
+        """Keep an operation that fits the state which is open."""
+        before = self.state
+        revision = -1 if asked.kind == "open" else before.revision
+        kept = self._store.append(self.label, revision, asked.kind, asked.body, line, asked.id)
+        after = self._store.state(self.label)
+        if after.count != before.count + 1:  # somebody else works on this label
+            raise StaleError("the photo was changed elsewhere meanwhile.", after.revision)
+        self.state = after
+        return kept
+
+    def _asked(self, operation: Logged, revision: int, known_by: str | None) -> Request:
+        body = operation.model_dump(mode="json", by_alias=True, exclude={"kind"})
+        return Request(self.label, revision, operation.kind, body, known_by)
+
+    def _kept_line(self) -> Line | None:
+        return None if self.wire.empty else self._line()
+
+    def _line(self) -> Line:
+        return Line(self.wire.skyline, self.wire.origin)
+
+    def _resume(self) -> None:
+        """Go on where the log ends, with the very line that was acknowledged."""
+        state = self.state
+        if not state.revision or state.line is None:
+            return
+        require_fit(state.line, self.photo.width)
+        try:
+            self.wire.edits = state.edits
+            same = not self.wire.empty and self.wire.skyline == state.line.skyline
+        except PathError:
+            same = False
+        if not same:  # solved by another version of the program: what was acknowledged holds
+            rows = state.line.skyline.rows.astype(int).tolist()
+            self.wire.edits = Edits(self.photo.height, self.photo.width).draw(0, rows)
+            for first, last in state.edits.hidden:
+                self.wire.hide(first, last)

@@ -1,0 +1,303 @@
+"""What a server works with: a folder, who labels it and in which order, and its open photos."""
+
+from __future__ import annotations
+
+import threading
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import closing
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from annotate.store.opened import read_whole
+from annotate.store.store import Card, Photo, Store
+from annotate.work import images
+from annotate.work.doubts import columns_of
+from annotate.work.joined import Joined, joined
+from annotate.work.open_photos import (
+    BLIND,
+    SESSION,
+    OpenPhotos,
+    SmallPictures,
+    detection_bytes,
+    require_room,
+)
+from annotate.work.session import Session
+from skyline_viz.detection import Detection
+from skyline_viz.method import Method
+from skyline_viz.photo import PhotoError
+from skyline_viz.system.memory import photo_limit
+
+Order = Literal["name", "margin", "random"]
+"""In which order photos are labelled: by name, the least certain first, or shuffled."""
+
+_AT_ONCE = 2  # photos that are read or detected at a time, however many are asked for
+
+
+class UnknownPhotoError(LookupError):
+    """There is no photo with this id."""
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """Who labels, and how."""
+
+    annotator: str
+    """Who."""
+
+    number: int = 1
+    """1 for the first pass over the photos, 2 for the second."""
+
+    order: Order = "name"
+    """In which order."""
+
+    blind: float = 0.0
+    """Share of the photos that are labelled without a proposal, in [0, 1]."""
+
+    seed: int = 0
+    """Seed of what is random: the order, and which photos are blind."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a pass over the photos is."""
+
+    done: int
+    """Photos that are accepted or rejected."""
+
+    total: int
+    """All photos."""
+
+    seconds_a_photo: float | None
+    """Mean time of those that are done; None before the first one."""
+
+    seconds_left: float | None
+    """Time that the others will take."""
+
+
+class Workbench:
+    """A pass of an annotator over the photos of a folder."""
+
+    def __init__(
+        self,
+        store: Store,
+        detector: Method,
+        assignment: Assignment,
+        doubts: dict[str, int] | None = None,
+    ) -> None:
+        """Find the photos.
+
+        Args:
+            store: The labels.
+            detector: What proposes.
+            assignment: Who labels, and how.
+            doubts: Only photos of these names are labelled; they open at these columns.
+        """
+        self.store, self.detector, self.assignment = store, detector, assignment
+        self.photos = {photo.id: photo for photo in store.find()}
+        self.doubts = columns_of(doubts or {}, self.photos.values())
+        if doubts is not None:
+            self.photos = {one: self.photos[one] for one in self.photos if one in self.doubts}
+        self._labels: dict[int, int] = {}
+        self._open: OpenPhotos[Session] = OpenPhotos()
+        self._work = threading.BoundedSemaphore(_AT_ONCE)
+        self._lock = threading.RLock()
+        self._ahead = ThreadPoolExecutor(1, "ahead")
+        self._soon = ThreadPoolExecutor(1, "soon")
+        self._thumbnails = SmallPictures()
+        self._detection: tuple[int, int, Detection] | None = None
+        chance = np.random.default_rng([assignment.seed, 1])
+        drawn = chance.random(len(self.photos)) < assignment.blind
+        by_content = sorted(self.photos.values(), key=lambda photo: photo.digest)
+        self._blind = {one.id for one, is_blind in zip(by_content, drawn, strict=True) if is_blind}
+
+    def close(self) -> None:
+        """Finish what is being prepared, and close the labels."""
+        self._ahead.shutdown(cancel_futures=True)
+        self._soon.shutdown(cancel_futures=True)
+        self.store.close()
+
+    def cards(self) -> list[Card]:
+        """All photos of the folder in short, in the order of the assignment."""
+        who = self.assignment
+        found = self.store.cards(who.annotator, who.number)
+        cards = [found[photo] for photo in self.photos if photo in found]
+        if who.order == "margin":
+            unknown = float("inf")
+            cards.sort(key=lambda card: unknown if card.margin is None else card.margin)
+        elif who.order == "random":
+            places = np.random.default_rng([who.seed, 2]).permutation(len(cards))
+            cards = [cards[place] for place in places.tolist()]
+        return cards
+
+    def progress(self, cards: list[Card]) -> Progress:
+        """How far the pass is, by its `cards`."""
+        done = [card for card in cards if card.status in ("accepted", "rejected")]
+        timed = [card.seconds for card in done]
+        each = sum(timed) / len(timed) if timed else None
+        left = None if each is None else each * (len(cards) - len(done))
+        return Progress(len(done), len(cards), each, left)
+
+    def photo(self, photo: int) -> Photo:
+        """A photo by its id.
+
+        Raises:
+            UnknownPhotoError: There is none.
+        """
+        if photo not in self.photos:
+            raise UnknownPhotoError(f"there is no photo number {photo}.")
+        return self.photos[photo]
+
+    def label(self, photo: int) -> int:
+        """Id of the label of a photo in this pass, which is made where there is none.
+
+        Raises:
+            UnknownPhotoError: There is no such photo.
+        """
+        self.photo(photo)
+        with self._lock:
+            if photo not in self._labels:
+                who, blind = self.assignment, photo in self._blind
+                self._labels[photo] = self.store.begin(
+                    photo, who.annotator, who.number, blind=blind
+                )
+            return self._labels[photo]
+
+    def session(self, photo: int) -> Session:
+        """A photo, open for labelling.
+
+        Raises:
+            UnknownPhotoError: There is none.
+            PhotoError: It has vanished, or cannot be read.
+        """
+        future, mine = self._future(photo)
+        if mine:
+            self._fill(photo, future)
+        return future.result()
+
+    def prepare_after(self, photo: int) -> None:
+        """Show a photo, and open the next one to do in the background where both fit."""
+        with self._lock:
+            if self._detection and self._detection[0] != photo:
+                self._detection = None
+                self._open.drop_beside()
+            self._open.show(photo)
+
+        def work() -> None:
+            cards = self.cards()
+            place = next((at for at, one in enumerate(cards) if one.photo.id == photo), 0)
+            rest = cards[place + 1 :] + cards[:place]
+            most = photo_limit() * 1e6
+            waiting = [
+                card
+                for card in rest
+                if card.status == "to do" and card.photo.height * card.photo.width <= most
+            ]
+            if waiting and self._open.fits(self._bytes(waiting[0].photo.id)):
+                following, mine = self._future(waiting[0].photo.id)
+                if mine:
+                    self._fill(waiting[0].photo.id, following)
+
+        self._ahead.submit(work)
+
+    def refresh(self, session: Session) -> None:
+        """Bring a photo's tables up to date in the background, before the next question."""
+        self._soon.submit(session.refresh)
+
+    def close_photo(self, photo: int) -> None:
+        """Forget an open photo: it is read from the disk again when it is asked for."""
+        self._open.close(photo)
+
+    def propose_again(self, detector: Method) -> int:
+        """Let another detector propose for the photos nobody has worked on; return how many."""
+        self.detector = detector
+        waiting = [card for card in self.cards() if card.status == "to do" and not card.blind]
+        changed = 0
+        for card in waiting:
+            self.close_photo(card.photo.id)
+            before = card.margin
+            worked_on = self.session(card.photo.id).state.revision > 0  # and undone: it stays
+            changed += before is not None and not worked_on
+        return changed
+
+    def detection(self, photo: int) -> Detection:
+        """All stages of a photo, by the detector that made its proposal; one is kept if it fits."""
+        session = self.session(photo)
+        with self._lock:
+            kept = self._detection
+            if kept and kept[:2] == (photo, id(session.detector)):
+                return kept[2]
+            self._detection = None
+        with self._work:
+            found = session.detector.detect(session.pixels)
+        with self._lock:
+            if self._open.keep_beside(photo, detection_bytes(found)):
+                self._detection = (photo, id(session.detector), found)
+        return found
+
+    def joined(self) -> Joined:
+        """Labels of this pass, joined to the photos that are in the folder now."""
+        who = self.assignment
+        with closing(Store(self.store.folder, of=self.store)) as store:
+            return joined(store, who.annotator, who.number)
+
+    def thumbnail(self, photo: int) -> bytes:
+        """A small picture of a photo, as JPEG."""
+        picture = self._thumbnails.get(photo)
+        if picture is None:
+            with self._work:
+                picture = images.thumbnail(read_whole(self.store, self.photo(photo)))
+            self._thumbnails.keep(photo, picture)
+        return picture
+
+    def strip(self, photo: int, width: int) -> bytes:
+        """The straightened strip of a photo, as PNG.
+
+        Raises:
+            PathError: There is no line yet.
+        """
+        waiting = self._open.get(photo)
+        line = self.store.line(self.label(photo))
+        if line is None or (waiting and waiting.done()):
+            session = self.session(photo)
+            with session.lock:
+                return images.strip(session.pixels, session.wire.skyline, width)
+        with self._work:
+            pixels = read_whole(self.store, self.photo(photo))
+            return images.strip(pixels, line.skyline, width)
+
+    def _future(self, photo: int) -> tuple[Future[Session], bool]:
+        """What an open photo will be, and whether the caller has to open it."""
+        return self._open.take(photo, self._bytes(photo))
+
+    def _bytes(self, photo: int) -> int:
+        """Bytes that a photo takes while it is open."""
+        one = self.photo(photo)
+        return one.height * one.width * (BLIND if photo in self._blind else SESSION)
+
+    def _fill(self, photo: int, future: Future[Session]) -> None:
+        try:
+            label = self.label(photo)
+            blind = self.store.is_blind(label)
+            with self._work:
+                self._require_room(photo, blind=blind)
+                session = Session(self.store, self.photo(photo), label, self.detector, blind=blind)
+            future.set_result(session)
+        except BaseException as error:
+            self.close_photo(photo)
+            future.set_exception(error)
+
+    def _require_room(self, photo: int, *, blind: bool) -> None:
+        """Refuse a photo that does not fit into the memory, even with others closed.
+
+        Raises:
+            PhotoError: It does not fit.
+        """
+        if blind:
+            return
+        try:
+            require_room(self.photo(photo))
+        except PhotoError:
+            self._open.close_others(photo)
+            require_room(self.photo(photo))

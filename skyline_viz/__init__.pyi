@@ -1,0 +1,39 @@
+# The public names, each with its module: types are read from here, and so is what is loaded.
+from .bins import Bins as Bins
+from .config import DetectorConfig as DetectorConfig
+from .config import TrainingConfig as TrainingConfig
+from .constraints import Anchor as Anchor
+from .constraints import Constraints as Constraints
+from .constraints import PathError as PathError
+from .constraints import StraightSpan as StraightSpan
+from .datasets.layouts import Dataset as Dataset
+from .datasets.layouts import DatasetError as DatasetError
+from .datasets.layouts import DatasetItem as DatasetItem
+from .datasets.layouts import open_dataset as open_dataset
+from .detection import Detection as Detection
+from .detector import Detector as Detector
+from .detector import FilterDetection as FilterDetection
+from .diagnosis.diagnosing import Diagnosis as Diagnosis
+from .diagnosis.diagnosing import diagnose as diagnose
+from .evaluation.metrics import a_err as a_err
+from .evaluation.metrics import column_errors as column_errors
+from .evaluation.metrics import is_gross_miss as is_gross_miss
+from .evaluation.metrics import segmentation_accuracy as segmentation_accuracy
+from .evaluation.verdict import Verdict as Verdict
+from .filter_bank import FilterBank as FilterBank
+from .filter_bank import FilterBankError as FilterBankError
+from .path import margins as margins
+from .path import path_tables as path_tables
+from .path import shortest_path as shortest_path
+from .photo import PhotoError as PhotoError
+from .photo import read_photo as read_photo
+from .photo import write_photo as write_photo
+from .skyline import Skyline as Skyline
+from .skyline import SkylineError as SkylineError
+from .training import train as train
+from .viewer.notebook import show_detection as show_detection
+from .viewer.recording import log_detection as log_detection
+from .viewer.recording import log_stages as log_stages
+from .viewer.recording import new_recording as new_recording
+
+__version__: str

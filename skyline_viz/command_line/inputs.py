@@ -1,0 +1,177 @@
+"""From the photos and folders of a command line to what to work on, and where it may be written."""
+
+import os
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+
+from skyline_viz.command_line.messages import UsageError, counted, listed, say, say_last
+from skyline_viz.command_line.truth_options import Truths
+from skyline_viz.datasets.layouts import TRUTH_FOLDERS, Dataset, DatasetItem, truth_names
+from skyline_viz.photo import PhotoError, photo_size
+from skyline_viz.running.batch import Failure
+from skyline_viz.system.names import shortened
+
+_LONGEST = 255 - len("-overlay.jpg")
+"""Bytes of an output's name, without the longest ending that we put to it."""
+
+
+@dataclass(frozen=True)
+class Input:
+    """A photo to work on."""
+
+    name: str
+    """What its output files are called, without ending; no other input has the same."""
+
+    item: DatasetItem
+    """The photo, and its truth where there is one."""
+
+
+def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[Input]:
+    """Photos of a command line: files as they are, folders as data sets; each file once.
+
+    A file that does not exist is an input, too: it fails when its turn comes.
+
+    Args:
+        paths: Files and folders.
+        truths: How to read the truths of data sets.
+
+    Raises:
+        DatasetError: A folder holds no photo, or several data sets.
+    """
+    found: dict[Path, DatasetItem] = {}
+    again: list[str] = []
+    for path in paths:
+        items: Iterable[DatasetItem] = [DatasetItem(path.stem, path)]
+        if path.is_dir():
+            items = dataset = (truths or Truths()).open(path)
+            _tell(dataset)
+        for item in items:
+            first = found.setdefault(item.photo_path.resolve(), item).photo_path
+            if first.absolute() != item.photo_path.absolute():
+                again.append(item.photo_path.name)
+    if again:
+        one = len(again) == 1
+        links = (
+            "is another name of a photo that is" if one else "are other names of photos that are"
+        )
+        say(f"{counted(len(again), 'file')} {links} done already: {listed(again)}.")
+    items = list(found.values())
+    plain = [_plain_name(item) for item in items]
+    names = output_names(items)
+    pairs = list(zip(names, plain, strict=True))
+    if long := [name for name, stem in pairs if name != stem and not _fits(stem)]:
+        say(f"names too long for those of outputs are cut: {listed([*map(shortened, long)])}.")
+    if renamed := [name for name, stem in pairs if name != stem and _fits(stem)]:
+        say(f"photos of the same name are told apart in the names of outputs: {listed(renamed)}.")
+    return [Input(name, item) for name, item in zip(names, items, strict=True)]
+
+
+def output_names(items: Sequence[DatasetItem]) -> list[str]:
+    """A name for the outputs of each photo: its stem, and more only where stems clash.
+
+    Names that differ in upper and lower case only clash, because on some disks their files do.
+    """
+    names = [_fitting(_plain_name(item)) for item in items]
+    longer: tuple[Callable[[DatasetItem], str], ...] = (
+        lambda item: item.name.replace("/", "-"),
+        lambda item: item.photo_path.name,
+    )
+    for longer_name in longer:
+        for clash in _clashes(names):
+            others = [_fitting(longer_name(items[index])) for index in clash]
+            if not _clashes(others):
+                for index, name in zip(clash, others, strict=True):
+                    names[index] = name
+    for clash in _clashes(names):
+        for number, index in enumerate(clash[1:], start=2):
+            taken = {name.casefold() for name in names}
+            free = (f"{names[index]}-{more}" for more in count(number))
+            names[index] = next(name for name in free if name.casefold() not in taken)
+    return names
+
+
+def _fits(name: str) -> bool:
+    return len(os.fsencode(name)) <= _LONGEST
+
+
+def _fitting(name: str) -> str:
+    """A name, cut where no file system would take it with an ending."""
+    return name if _fits(name) else os.fsdecode(os.fsencode(name)[: _LONGEST - 4]) + "-cut"
+
+
+def _clashes(names: Sequence[str]) -> list[list[int]]:
+    """Groups of places in a list that hold the same name."""
+    places: dict[str, list[int]] = {}
+    for place, name in enumerate(names):
+        places.setdefault(name.casefold(), []).append(place)
+    return [group for group in places.values() if len(group) > 1]
+
+
+def with_truth(dataset: Dataset) -> list[DatasetItem]:
+    """Photos of a data set that have a truth; says what is wrong with others.
+
+    Of those without a truth only the headers are read.
+
+    Raises:
+        UsageError: No photo has a truth.
+    """
+    _tell(dataset)
+    usable = [item for item in dataset if item.truth_path]
+    without = []
+    for item in dataset:
+        if item.truth_path:
+            continue  # what is wrong with its photo is said when its turn comes
+        try:
+            photo_size(item.photo_path)
+            without.append(item.name)
+        except PhotoError as error:
+            say(f"{str(Failure(item.name, str(error))).rstrip('.')}; it has no truth either.")
+    if not usable:
+        raise UsageError(
+            f"{dataset.name} holds no truth for any of its {len(dataset)} photos; "
+            f"one is found as {truth_names(dataset.items[0])}."
+        )
+    if without:
+        say(f"left out, because there is no truth: {listed(without)}.")
+    return usable
+
+
+def output_folder(out: Path, items: Iterable[DatasetItem]) -> Path:
+    """Make a folder for outputs.
+
+    Raises:
+        UsageError: It cannot be made or written to, or what is written there would later be taken
+            for the truth of a photo.
+    """
+    target = out.resolve()
+    for place in {item.photo_path.resolve().parent for item in items}:
+        homes = [place, place.parent] if place.name.lower() == "images" else [place]
+        truths = target.name.lower() in TRUTH_FOLDERS and target.parent in homes
+        if target == place or truths:
+            raise UsageError(
+                f"files written into {out} would be taken for the truth of the photos in {place}; "
+                f"choose another --out."
+            )
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise UsageError(f"the folder {out} cannot be made: {reason}.") from error
+    if not os.access(out, os.W_OK | os.X_OK):
+        raise UsageError(f"the folder {out} may not be written to.")
+    return out
+
+
+def _tell(dataset: Dataset) -> None:
+    """Say what is wrong with a data set, and at the very end what was not taken."""
+    for problem in dataset.problems:
+        say(f"{dataset.name}: {problem}")
+    for sentence in dataset.left_out:
+        say_last(f"{dataset.name}: {sentence}")
+
+
+def _plain_name(item: DatasetItem) -> str:
+    """The photo's stem; in GeoPose3K, where every photo has the same, its folder."""
+    return item.name if item.label_map else item.photo_path.stem

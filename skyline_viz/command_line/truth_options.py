@@ -1,0 +1,45 @@
+"""The options that say how to read truths whose masks leave a choice."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeAlias
+
+import tyro
+
+if TYPE_CHECKING:
+    from skyline_viz.datasets.layouts import Dataset
+
+Value: TypeAlias = Annotated[str | None, tyro.conf.arg(metavar="VALUE")]
+
+
+@dataclass(frozen=True)
+class Truths:
+    """Which value of a mask is which."""
+
+    sky: Value = None
+    """What is sky in masks: a grey level, palette index, colour, transparent or opaque; several
+    with commas between. Told by the masks unless given."""
+
+    terrain: Value = None
+    """What is terrain in masks, instead of --sky."""
+
+    def __post_init__(self) -> None:
+        """Refuse both at once."""
+        if self.sky is not None and self.terrain is not None:
+            raise ValueError("--sky and --terrain exclude each other: what is not one is the other")
+
+    def open(self, folder: Path) -> Dataset:
+        """Open a data set whose truths are read in this way.
+
+        Raises:
+            DatasetError: As `skyline_viz.open_dataset`.
+        """
+        from skyline_viz.datasets.layouts import open_dataset  # noqa: PLC0415
+
+        return open_dataset(folder, sky=self.sky, terrain=self.terrain)
+
+
+TruthOptions: TypeAlias = Annotated[Truths, tyro.conf.arg(name="")]
+"""`Truths` without a prefix of their own."""

@@ -1,0 +1,360 @@
+"""Why a skyline went wrong: each failing segment gets a cause, proved by a counterfactual.
+
+==============  =================================================================================
+cause           what is true of the segment
+==============  =================================================================================
+truth doubtful  the photo has next to no contrast along the truth, and much along the path beside it
+missed edge     with edges where the truth has none, the path comes back
+starved bin     with typical scores where the truth's bins are starved, it comes back
+misjudged       with typical scores where the truth's bins are well trained, it comes back
+too steep       with the truth's steps allowed and free, it comes back
+cheaper path    nothing of it, alone or together, brings it back; without a few other lines, and
+                with all of it where need be, it does: other lines are simply cheaper
+==============  =================================================================================
+
+The first that holds is the cause. Where only several together bring the path back, the one that
+changes the cost of the truth most is the main cause, and the others contribute. What nothing brings
+back is called a cheaper path, too, and its evidence says that it is not proved.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from skyline_viz.arrays import Int
+from skyline_viz.detection import Detection
+from skyline_viz.diagnosis import evidence
+from skyline_viz.diagnosis.causes import Cause
+from skyline_viz.diagnosis.cost_split import CostSplit, split_cost
+from skyline_viz.diagnosis.counterfactual import CHANGES, REPAIRED, Case, Change, scaled
+from skyline_viz.diagnosis.doubt import doubt_of
+from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.system.names import named_in_markdown
+
+TOLERANCE = 4.0
+"""Error up to which a column is right, in pixels at 519 rows."""
+
+_GAP = 5  # right columns that do not end a segment
+_MOST_LINES = 8  # that are taken away until the truth is expected back,
+_MOST_SEARCHES = 64  # and as many plain searches at most that this may take as long as
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One counterfactual of a segment."""
+
+    changes: tuple[Cause, ...]
+    """What was made right."""
+
+    columns: int
+    """In how many columns."""
+
+    repaired: float
+    """Share of the segment's wrong columns that are right then."""
+
+    lines: int = 0
+    """How many competing lines were taken away; of trials with ever more, the last is kept."""
+
+
+@dataclass(frozen=True, eq=False)
+class Segment:
+    """Columns in which the path is wrong, and why."""
+
+    columns: tuple[int, int]
+    """The first and the last one."""
+
+    mean_error: float
+    """In pixels."""
+
+    worst_error: float
+    """In pixels."""
+
+    total_error: float
+    """In pixels, summed over the visible columns."""
+
+    cause: Cause
+    """Why."""
+
+    contributing: tuple[Cause, ...]
+    """Causes without which the main one would not have been enough."""
+
+    evidence: str
+    """What was found, in a few sentences."""
+
+    trials: tuple[Trial, ...]
+    """All counterfactuals that were tried."""
+
+    margin: float
+    """How clear the decision is: the repaired share by which it was made, less the best of the
+    trials that it was made against; from 0 (a toss-up, or not proved) to 1."""
+
+    path_cost: dict[str, float]
+    """What the path pays in the segment, stage by stage, see `cost_split.CostSplit`."""
+
+    truth_cost: dict[str, float]
+    """What the truth pays."""
+
+    line: tuple[int, Int]
+    """The path of the counterfactual that decided: first column, and rows from there on; where none
+    did, the path itself."""
+
+    @property
+    def length(self) -> int:
+        """Number of columns."""
+        return self.columns[1] - self.columns[0] + 1
+
+    @property
+    def proof(self) -> Trial | None:
+        """The trial of exactly these causes that brings the path back; None if there is none."""
+        chosen = {self.cause, *self.contributing}
+        proofs = (
+            one for one in self.trials if set(one.changes) == chosen and one.repaired >= REPAIRED
+        )
+        return next(proofs, None)
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """Why a detection went wrong, segment by segment; without segments it is right."""
+
+    segments: tuple[Segment, ...]
+    """From left to right."""
+
+    tolerance: float
+    """Error up to which a column counts as right, in pixels."""
+
+    @property
+    def right(self) -> bool:
+        """Whether the detection is right everywhere."""
+        return not self.segments
+
+    @property
+    def main(self) -> Segment | None:
+        """The segment with the largest total error."""
+        return next(iter(self.by_error), None)
+
+    @property
+    def by_error(self) -> tuple[Segment, ...]:
+        """The segments, that with the largest total error first."""
+        return tuple(sorted(self.segments, key=lambda one: -one.total_error))
+
+    @property
+    def causes(self) -> tuple[Cause, ...]:
+        """The causes of all segments, each once, that of `main` first."""
+        return tuple(dict.fromkeys(segment.cause for segment in self.by_error))
+
+    @property
+    def said_right(self) -> str:
+        """That it is right, in a sentence."""
+        return f"Right: no column is off by more than {self.tolerance:.3g} px."
+
+    def document(self) -> dict[str, Any]:
+        """Everything but the lines, for JSON."""
+        kept = [one.name for one in fields(Segment) if one.name not in ("line", "trials")]
+        return {
+            "tolerance": self.tolerance,
+            "segments": [
+                {
+                    **{name: getattr(segment, name) for name in kept},
+                    "trials": [vars(trial) for trial in segment.trials],
+                }
+                for segment in self.segments
+            ],
+        }
+
+    def markdown(self, name: str = "") -> str:
+        """A report for people, the segment with the largest total error first."""
+        lines = [f"**{named_in_markdown(name)}**  "] if name else []
+        if self.right:
+            return "\n".join([*lines, self.said_right])
+        for one in self.by_error:
+            first, last = one.columns
+            also = f", with {' and '.join(one.contributing)}" if one.contributing else ""
+            lines += [
+                f"**{one.cause}{also}**, columns {first} to {last}  ",
+                f"off by {one.mean_error:.1f} px in the mean, {one.worst_error:.0f} at worst  ",
+                f"{one.evidence}",
+                "",
+            ]
+        return "\n".join(lines)
+
+
+def diagnose(detection: Detection, truth: Skyline, tolerance: float | None = None) -> Diagnosis:
+    """Find out why a detection went wrong.
+
+    Args:
+        detection: The detection.
+        truth: The true line.
+        tolerance: Error up to which a column is right, in pixels; `TOLERANCE`, scaled for photos
+            of more than 519 rows, unless given.
+
+    Raises:
+        SkylineError: The truth has another width than the photo, or is visible nowhere.
+        ValueError: The tolerance is negative, or not finite.
+    """
+    height, width = detection.edges.shape
+    if truth.width != width:
+        raise SkylineError(f"the photo is {width} columns wide, the truth {truth.width}")
+    if not truth.visible.any():
+        raise SkylineError("the truth is visible nowhere.")
+    allowed = scaled(TOLERANCE, height) if tolerance is None else checked_tolerance(tolerance)
+    case = Case(detection, truth, allowed)
+    runs = failing_runs(case.errors > allowed)
+    if not runs:
+        return Diagnosis((), allowed)
+    path = split_cost(detection, detection.skyline.rows.astype(np.int32))
+    ideal = split_cost(detection, case.rows)
+    return Diagnosis(tuple(_explain(case, run, path, ideal) for run in runs), allowed)
+
+
+def checked_tolerance(tolerance: float) -> float:
+    """A tolerance, if it can be one.
+
+    Raises:
+        ValueError: It is negative, or not finite.
+    """
+    if not 0 <= tolerance < math.inf:
+        raise ValueError(f"a tolerance is a number of pixels, 0 or more, not {tolerance:g}.")
+    return tolerance
+
+
+def failing_runs(wrong: np.ndarray[Any, np.dtype[np.bool_]]) -> list[tuple[int, int]]:
+    """First and last column of each run of wrong columns; a few right ones do not end it."""
+    columns = np.flatnonzero(wrong)
+    if len(columns) == 0:
+        return []
+    runs = np.split(columns, np.flatnonzero(np.diff(columns) > _GAP + 1) + 1)
+    return [(int(run[0]), int(run[-1])) for run in runs]
+
+
+class _Trials:
+    """The counterfactuals of a segment, as they are tried."""
+
+    def __init__(self, case: Case, run: tuple[int, int]) -> None:
+        self.case, self.run = case, run
+        self.reach = case.excursion(*run)
+        self.made: list[Trial] = []
+        self.line = (run[0], case.path_rows[run[0] : run[1] + 1])
+        self.lines: dict[tuple[Change, ...], tuple[int, Int]] = {}
+
+    def change(self, *changes: Change) -> float:
+        """Make the truth right in some respects; return the share that comes back."""
+        touched = np.zeros(self.case.truth.width, np.bool_)
+        for change in changes:
+            touched |= self.case.columns_of(change, *self.reach)
+        found = self.case.search(changes, *self.reach)
+        share = self.case.repaired(*found, *self.run)
+        self.made.append(Trial(changes, int(touched.sum()), share))
+        self.lines[changes] = found
+        return share
+
+    def take_lines(self, *changes: Change) -> Trial:
+        """Take competing lines away, one after another, until the truth comes back, or enough."""
+        case = self.case
+        most = max(min(_MOST_LINES, int(_MOST_SEARCHES / self._dearer(changes))), 1)
+        lines = [case.path_rows]
+        found = case.search(changes, *self.reach, lines)
+        while case.repaired(*found, *self.run) < REPAIRED and len(lines) < most:
+            lines.append(case.whole(*found))
+            found = case.search(changes, *self.reach, lines)
+        touched = np.zeros(case.truth.width, np.bool_)
+        for line in lines:
+            touched |= case.barred(line, *self.reach)
+        for change in changes:
+            touched |= case.columns_of(change, *self.reach)
+        share = case.repaired(*found, *self.run)
+        trial = Trial(("cheaper path", *changes), int(touched.sum()), share, len(lines))
+        self.made.append(trial)
+        if share >= REPAIRED:
+            self.line = found
+        return trial
+
+    def _dearer(self, changes: Sequence[Change]) -> float:
+        """How many plain searches one takes as long as in which the truth's steps are allowed."""
+        delta = max(self.case.detection.delta, 1)
+        part = slice(self.reach[0], self.reach[1] + 1)
+        allowed = np.maximum(self.case.steps[part], delta)
+        return float(allowed.mean()) / delta if "too steep" in changes else 1.0
+
+    def against(self, cause: Cause) -> float:
+        """The largest share that came back without a cause being made right."""
+        return max((one.repaired for one in self.made if cause not in one.changes), default=0.0)
+
+
+def _explain(case: Case, run: tuple[int, int], path: CostSplit, ideal: CostSplit) -> Segment:
+    trials = _Trials(case, run)
+    usable = [one for one in CHANGES if case.columns_of(one, *trials.reach).any()]
+    shares = {one: trials.change(one) for one in usable}
+    paid, due = path.totals(*run), ideal.totals(*run)
+    cause: Cause
+    contributing: tuple[Cause, ...] = ()
+    if doubt := doubt_of(case, *run):
+        cause, share, said = "truth doubtful", doubt.repaired, doubt.evidence
+        trials.made.append(Trial((cause,), doubt.columns, share))
+    elif chosen := _chosen(usable, shares, trials):
+        main = max(chosen, key=lambda one: _effect(case, one, *trials.reach))
+        cause, contributing = main, tuple(one for one in chosen if one != main)
+        trials.line = trials.lines[chosen]
+        share = case.repaired(*trials.line, *run)
+        found = evidence.changes_found(case, chosen, run, trials.reach)
+        said = f"{found} {evidence.changes_helped(share)}"
+    else:
+        cause = "cheaper path"
+        said = evidence.cheaper_by(paid, due, trials.against(cause))
+        last = trials.take_lines()
+        if last.repaired < REPAIRED and usable:
+            last = trials.take_lines(*usable)
+            contributing = tuple(usable) if last.repaired >= REPAIRED else ()
+        also = usable if len(last.changes) > 1 else []
+        share = last.repaired if last.repaired >= REPAIRED else 0.0
+        said = f"{said} {evidence.lines_taken(last.lines, also, last.repaired)}"
+    errors = case.errors[run[0] : run[1] + 1]
+    return Segment(
+        columns=run,
+        mean_error=float(np.nanmean(errors)),
+        worst_error=float(np.nanmax(errors)),
+        total_error=float(np.nansum(errors)),
+        cause=cause,
+        contributing=contributing,
+        evidence=said,
+        trials=tuple(trials.made),
+        margin=max(share - trials.against(cause), 0.0),
+        path_cost=paid,
+        truth_cost=due,
+        line=trials.line,
+    )
+
+
+def _chosen(
+    usable: Sequence[Change], shares: dict[Change, float], trials: _Trials
+) -> tuple[Change, ...]:
+    """The first change that repairs alone, or the fewest that do together; else none."""
+    for one in usable:
+        if shares[one] >= REPAIRED:
+            return (one,)
+    if len(usable) < 2 or trials.change(*usable) < REPAIRED:
+        return ()
+    kept = list(usable)
+    for one in reversed(usable):
+        rest = [other for other in kept if other != one]
+        if len(rest) > 1 and trials.change(*rest) >= REPAIRED:
+            kept = rest
+    return tuple(kept)
+
+
+def _effect(case: Case, change: Change, first: int, last: int) -> float:
+    """How much cheaper a change makes the truth."""
+    columns = np.flatnonzero(case.columns_of(change, first, last))
+    detection = case.detection
+    if change == "missed edge":
+        due = detection.no_edge_costs(case.rows[columns], columns)
+        return float((due - case.typical_cost).sum())
+    if change == "too steep":
+        steep = np.maximum(case.steps[columns] - detection.delta, 0)
+        return float(detection.link_weight * case.steps[columns].sum() + steep.sum())
+    return float(case.saved(columns).sum())

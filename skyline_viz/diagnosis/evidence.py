@@ -1,0 +1,102 @@
+"""What a diagnosis found in a segment, in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from skyline_viz.arrays import Int
+from skyline_viz.detection import Detection
+from skyline_viz.detector import FilterDetection
+from skyline_viz.diagnosis.counterfactual import REPAIRED, Case, Change
+
+
+def changes_found(
+    case: Case, chosen: Sequence[Change], run: tuple[int, int], reach: tuple[int, int]
+) -> str:
+    """What the truth lacks.
+
+    Args:
+        case: Detection and truth.
+        chosen: In which respects.
+        run: First and last column of the segment.
+        reach: First and last column of the path's excursion around it, in which it was changed.
+    """
+    said = "; ".join(_found(case, change, *reach) for change in chosen)
+    first, last = reach
+    if reach == run:
+        return f"{said[:1].upper()}{said[1:]}."
+    return f"Between columns {first} and {last}, where the path leaves the truth, {said}."
+
+
+def changes_helped(share: float) -> str:
+    """What the changes of the truth brought back."""
+    return f"With that made right, {share:.0%} of the wrong columns are right."
+
+
+def cheaper_by(paid: Mapping[str, float], due: Mapping[str, float], best: float) -> str:
+    """Which stage prefers the path, and by how much.
+
+    Args:
+        paid: What the path pays, stage by stage.
+        due: What the truth pays.
+        best: The largest share that a change of the truth brings back.
+    """
+    dearer = {stage: due[stage] - paid[stage] for stage in paid}
+    stage = max(dearer, key=lambda one: dearer[one])
+    total = sum(dearer.values())
+    if total > 0:
+        costs = (
+            f"The path is {total:.1f} cheaper than the truth here, "
+            f"mostly by {stage} ({dearer[stage]:.1f})."
+        )
+    else:  # it is cheaper on the way there and back
+        costs = f"The path is {-total:.1f} dearer than the truth here, and cheaper beside it."
+    helps = f"more than {best:.0%} of the wrong columns" if best else "any wrong column"
+    return f"{costs} No change of the truth alone brings back {helps}."
+
+
+def lines_taken(lines: int, changes: Sequence[Change], share: float) -> str:
+    """What taking competing lines away brought back.
+
+    Args:
+        lines: How many.
+        changes: What of the truth was made right as well.
+        share: Share of the wrong columns that came back.
+    """
+    which = "the path's line" if lines == 1 else f"the {lines} lines that are cheaper"
+    also = f" and with the truth made right ({', '.join(changes)})" if changes else ""
+    if share >= REPAIRED:
+        return f"Without {which}{also}, {share:.0%} of the wrong columns come back."
+    return f"Nothing that was tried brings it back, not even without {which}{also}."
+
+
+def _found(case: Case, change: Change, first: int, last: int) -> str:
+    detection = case.detection
+    columns = case.columns_of(change, first, last)
+    count = int(columns.sum())
+    if change == "missed edge":
+        seen = int(case.truth.visible[first : last + 1].sum())
+        return f"the truth has no edge in {count} of {seen} columns"
+    if change == "too steep":
+        steepest = int(case.steps[columns].max())
+        return (
+            f"the truth climbs up to {steepest} rows a column "
+            f"(delta {detection.delta}, link weight {detection.link_weight:g})"
+        )
+    pixels = case.pixels[columns]
+    score = float(np.median(detection.scores[pixels]))
+    return (
+        f"{count} edge pixels of the truth score {score:.2f}"
+        f"{_in_bins(detection, pixels)}, where {case.typical[0]:.2f} is typical"
+    )
+
+
+def _in_bins(detection: Detection, pixels: Int) -> str:
+    """Which bins some edge pixels fell into, in words; nothing for methods without bins."""
+    if not isinstance(detection, FilterDetection):
+        return ""
+    count = len(np.unique(detection.bins[pixels]))
+    kind = "starved" if detection.starved[pixels].all() else "well-trained"
+    return f" in {count} {kind} {'bin' if count == 1 else 'bins'}"

@@ -1,0 +1,9 @@
+from .cross_validation import cross_validate as cross_validate
+from .cross_validation import evaluate as evaluate
+from .metrics import a_err as a_err
+from .metrics import column_errors as column_errors
+from .metrics import is_gross_miss as is_gross_miss
+from .metrics import segmentation_accuracy as segmentation_accuracy
+from .results import PhotoResult as PhotoResult
+from .results import Summary as Summary
+from .verdict import Verdict as Verdict

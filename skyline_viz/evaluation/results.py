@@ -1,0 +1,140 @@
+"""Results of an evaluation: photo by photo, and their summary."""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from skyline_viz.evaluation.metrics import (
+    a_err,
+    column_errors,
+    is_gross_miss,
+    segmentation_accuracy,
+)
+from skyline_viz.skyline import Skyline
+
+
+@dataclass(frozen=True)
+class PhotoResult:
+    """How far the skyline of one photo is from its truth."""
+
+    name: str
+    """Name of the photo in its data set."""
+
+    a_err: float
+    """Mean distance from the truth over visible columns, in pixels."""
+
+    worst_error: float
+    """Largest distance from the truth of any visible column, in pixels."""
+
+    worst_column: int
+    """The column where it is."""
+
+    segmentation_accuracy: float
+    """Share of pixels rightly called sky or terrain, in [0, 1]."""
+
+    gross_miss: bool
+    """Whether ``a_err`` is over 5 % of the height."""
+
+    seconds: float
+    """Time that the detection took, reading the file not counted."""
+
+    height: int
+    """Rows of the photo."""
+
+    width: int
+    """Columns of the photo."""
+
+    @classmethod
+    def of(
+        cls, name: str, skyline: Skyline, truth: Skyline, height: int, seconds: float = math.nan
+    ) -> "PhotoResult":
+        """Compare a skyline with the truth.
+
+        Raises:
+            SkylineError: The widths differ, a row lies outside `height`, or nothing is visible.
+        """
+        error = a_err(skyline, truth)
+        errors = column_errors(skyline, truth)
+        worst = int(np.nanargmax(errors))
+        return cls(
+            name=name,
+            a_err=error,
+            worst_error=float(errors[worst]),
+            worst_column=worst,
+            segmentation_accuracy=segmentation_accuracy(skyline, truth, height),
+            gross_miss=is_gross_miss(error, height),
+            seconds=seconds,
+            height=height,
+            width=truth.width,
+        )
+
+
+@dataclass(frozen=True)
+class Summary:
+    """Results over all photos. A few whole-image failures rule the mean, none of them the median.
+
+    >>> results = [PhotoResult.of("a", Skyline([4, 5]), Skyline([4, 4]), height=9)]
+    >>> Summary.of(results).mean
+    0.5
+    """
+
+    photos: int
+    """Number of photos."""
+
+    mean: float
+    """Mean A_err, in pixels."""
+
+    standard_deviation: float
+    """Standard deviation of A_err over these photos (divided by their number), in pixels."""
+
+    median: float
+    """Median A_err, in pixels."""
+
+    minimum: float
+    """Smallest A_err, in pixels."""
+
+    maximum: float
+    """Largest A_err, in pixels."""
+
+    under_4_px: float
+    """Share of photos with an A_err below 4 pixels, in [0, 1]."""
+
+    under_5_px: float
+    """Share of photos with an A_err below 5 pixels, in [0, 1]."""
+
+    gross_misses: int
+    """Number of photos with an A_err over 5 % of their height."""
+
+    segmentation_accuracy: float
+    """Mean over photos of the share of rightly called pixels, in [0, 1]."""
+
+    seconds: float
+    """Median time of a detection."""
+
+    @classmethod
+    def of(cls, results: Sequence[PhotoResult]) -> "Summary":
+        """Summarise; all figures of no result at all are NaN, and the counts 0."""
+        if not results:
+            counts = {"photos": 0, "gross_misses": 0}
+            return cls(**{field.name: counts.get(field.name, math.nan) for field in fields(cls)})  # type: ignore[arg-type]
+        errors = np.array([result.a_err for result in results])
+        return cls(
+            photos=len(results),
+            mean=float(errors.mean()),
+            standard_deviation=float(errors.std()),
+            median=float(np.median(errors)),
+            minimum=float(errors.min()),
+            maximum=float(errors.max()),
+            under_4_px=float((errors < 4).mean()),
+            under_5_px=float((errors < 5).mean()),
+            gross_misses=sum(result.gross_miss for result in results),
+            segmentation_accuracy=float(np.mean([r.segmentation_accuracy for r in results])),
+            seconds=float(np.median([result.seconds for result in results])),
+        )
+
+
+def worst(results: Iterable[PhotoResult], count: int = 5) -> list[PhotoResult]:
+    """The results with the largest A_err, the worst first."""
+    return sorted(results, key=lambda result: (-result.a_err, result.name))[:count]

@@ -1,0 +1,309 @@
+"""A data set as a gallery: one small recording a photo, what it came to, and what people said.
+
+A gallery is a folder::
+
+    recordings/NAME.rrd   stages of each photo, lean; odd names are spelt in plain letters
+    gallery.json          what each detection came to, why, and what it was made from
+    flags.json            which photos are reviewed, and comments
+
+Every file is whole at any time. A photo is detected again only when it, its truth, the filter bank
+or the configuration has changed since, so a run that was interrupted goes on where it stopped.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import partial
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import numpy as np
+
+from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.diagnosis.causes import Cause
+from skyline_viz.diagnosis.diagnosing import diagnose
+from skyline_viz.evaluation.cross_validation import warm_up
+from skyline_viz.files import write_text
+from skyline_viz.method import Method
+from skyline_viz.running.batch import Failure, run
+from skyline_viz.running.resume import digest_of_files, digest_of_method
+from skyline_viz.system.names import recording_id
+from skyline_viz.viewer.comparison import log_comparison
+from skyline_viz.viewer.diagnosis_recording import log_diagnosis
+from skyline_viz.viewer.recording import log_detection, new_recording
+from skyline_viz.viewer.report import listed_segments
+
+VERSION = 3
+"""Of recordings and gallery.json; all of an earlier one are made anew."""
+
+_FLAGS_VERSION = 1  # of flags.json, which outlives the others
+
+_SAVE_EVERY = 1.0  # seconds
+
+
+class GalleryError(ValueError):
+    """A gallery's file is damaged; the message names it and says why."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A photo of a gallery, and what its detection came to; see `verdict.Verdict`."""
+
+    name: str
+    """Unique in the gallery; also the name of its recording."""
+
+    photo: str
+    """The photo's file."""
+
+    made_from: str
+    """Digest of photo, truth, filter bank and configuration."""
+
+    margin: float
+    """How sure the path is; small is uncertain."""
+
+    unsure_column: int
+    """Column with the smallest margin."""
+
+    a_err: float | None = None
+    """Mean error in pixels; None without a truth."""
+
+    worst_column: int | None = None
+    """Column with the largest error."""
+
+    worst_error: float | None = None
+    """Its error in pixels."""
+
+    gross_miss: bool | None = None
+    """Whether `a_err` is over 5 % of the image height."""
+
+    segments: tuple[tuple[int, int], ...] | None = None
+    """First and last column of each run of wrong columns."""
+
+    causes: tuple[Cause, ...] | None = None
+    """Why it went wrong, see `diagnosis.Diagnosis.causes`; nothing where it is right, None without
+    a truth."""
+
+    method: str = "default"
+    """Name of the method."""
+
+    compared: str = ""
+    """Name of the method beside the first; nothing without one."""
+
+    other_a_err: float | None = None
+    """Mean error of its line in pixels."""
+
+    difference: float | None = None
+    """Mean distance between both lines, in pixels."""
+
+    @property
+    def cause(self) -> Cause | None:
+        """The main cause."""
+        return self.causes[0] if self.causes else None
+
+    @property
+    def wrong(self) -> str:
+        """The segments that went wrong, in words."""
+        return listed_segments(self.segments or (), most=2)
+
+
+@dataclass(frozen=True)
+class Flag:
+    """What people said about a photo."""
+
+    reviewed: bool = False
+    """Whether somebody has looked at it."""
+
+    comment: str = ""
+    """Their comment."""
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A photo to put into a gallery."""
+
+    name: str
+    """Unique in the gallery, and fit for a file name."""
+
+    item: DatasetItem
+    """The photo, and its truth where there is one."""
+
+
+@dataclass(frozen=True)
+class Gallery:
+    """The files of a gallery."""
+
+    folder: Path
+    """Its folder; made when first written to."""
+
+    def recording(self, name: str) -> Path:
+        """File of a photo's recording."""
+        return self.folder / "recordings" / f"{recording_id(name)}.rrd"
+
+    def entries(self) -> dict[str, Entry]:
+        """Photos that were done, by name; none of those that an earlier version did.
+
+        Raises:
+            GalleryError: The file is damaged.
+        """
+        entries = {}
+        for one in _read(self.folder / "gallery.json", "photos", VERSION):
+            if one.get("segments") is not None:
+                one["segments"] = tuple((int(a), int(b)) for a, b in one["segments"])
+            if one.get("causes") is not None:
+                one["causes"] = tuple(one["causes"])
+            entry = _made(Entry, self.folder / "gallery.json", one)
+            entries[entry.name] = entry
+        return entries
+
+    def flags(self) -> dict[str, Flag]:
+        """What people said, by name, also of photos that are no longer in the data set.
+
+        Raises:
+            GalleryError: The file is damaged.
+        """
+        path = self.folder / "flags.json"
+        said = _read(path, "flags", _FLAGS_VERSION)
+        return {one.pop("name", ""): _made(Flag, path, one) for one in said}
+
+    def save_entries(self, entries: Sequence[Entry]) -> None:
+        """Write what was done."""
+        done = [asdict(entry) for entry in entries]
+        _write(self.folder / "gallery.json", "photos", done, VERSION)
+
+    def save_flags(self, flags: dict[str, Flag]) -> None:
+        """Write what people said."""
+        said = [{"name": name, **asdict(flag)} for name, flag in sorted(flags.items())]
+        _write(self.folder / "flags.json", "flags", said, _FLAGS_VERSION)
+
+    def build(
+        self,
+        shots: Sequence[Shot],
+        method: Method,
+        beside: Method | None = None,
+        workers: int = 0,
+    ) -> Iterator[Entry | Failure]:
+        """Detect and record what is not there yet; yield each photo's entry, or why it failed.
+
+        Args:
+            shots: The photos.
+            method: What detects.
+            beside: A second method, to compare with.
+            workers: Number of processes, see `batch.run`.
+
+        Raises:
+            GalleryError: The gallery's file is damaged.
+        """
+        known = self.entries()
+        digests = [digest_of_method(one, str(VERSION)) for one in (method, beside) if one]
+        looks = _Looks(method, beside, "".join(digests))
+        tasks = [_Task(shot.name, shot.item, known.get(shot.name)) for shot in shots]
+        entries = {shot.name: known[shot.name] for shot in shots if shot.name in known}
+        saved = monotonic()
+        try:
+            for outcome in run(partial(_work, self, looks), tasks, workers=workers):
+                if isinstance(outcome, Entry):
+                    entries[outcome.name] = outcome
+                else:
+                    entries.pop(outcome.name, None)
+                if monotonic() - saved > _SAVE_EVERY:
+                    self.save_entries(list(entries.values()))
+                    saved = monotonic()
+                yield outcome
+        finally:
+            self.save_entries(list(entries.values()))
+
+
+def by_need(entries: Sequence[Entry]) -> list[Entry]:
+    """Entries in the order in which to look at them.
+
+    Where two methods are compared, those on which they differ most first. Else those with a truth
+    first, the largest error before; then those without, the least sure before.
+    """
+    return sorted(
+        entries,
+        key=lambda one: (
+            -(one.difference or 0.0),
+            one.a_err is None,
+            -(one.a_err or 0.0),
+            one.margin,
+            one.name,
+        ),
+    )
+
+
+@dataclass(frozen=True)
+class _Task:
+    name: str
+    item: DatasetItem
+    known: Entry | None
+
+
+@dataclass(frozen=True)
+class _Looks:
+    method: Method
+    beside: Method | None
+    digest: str
+
+
+def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
+    item = task.item
+    made_from = digest_of_files(looks.digest, item)
+    file = gallery.recording(task.name)
+    if task.known and task.known.made_from == made_from and file.exists():
+        return replace(task.known, photo=str(item.photo_path))
+    photo, truth = item.photo(), item.truth()
+    warm_up()
+    detection = looks.method.detect(photo)
+    other = looks.beside.detect(photo) if looks.beside else None
+    with new_recording(file, task.name) as recording:
+        verdict = log_detection(recording, detection, truth, name=task.name, fidelity="lean")
+        causes = None
+        if truth is not None and verdict.a_err is not None:  # it is visible somewhere
+            diagnosis = diagnose(detection, truth)
+            log_diagnosis(recording, diagnosis, detection, truth, task.name, fidelity="lean")
+            causes = diagnosis.causes
+        against: dict[str, Any] = {}
+        if other is not None:
+            beside = log_comparison(recording, detection, other, truth, other.method, "lean")
+            apart = np.abs(other.skyline.rows - detection.skyline.rows).mean()
+            against = {
+                "compared": other.method,
+                "other_a_err": beside.a_err,
+                "difference": float(apart),
+            }
+    photo_file = str(item.photo_path)
+    about = {"method": detection.method, "causes": causes, **against, **vars(verdict)}
+    return Entry(task.name, photo_file, made_from, **about)
+
+
+def _read(path: Path, key: str, version: int) -> list[dict[str, Any]]:
+    """What a file holds; nothing where an earlier version wrote it."""
+    if not path.exists():
+        return []
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+        found = document[key]
+        if document["version"] in range(1, version):
+            return []
+        if document["version"] != version or not all(isinstance(one, dict) for one in found):
+            raise ValueError
+    except (ValueError, LookupError, TypeError) as error:
+        raise GalleryError(
+            f"{path} is damaged or of another version; move it away to start afresh."
+        ) from error
+    return list(found)
+
+
+def _made(kind: Any, path: Path, values: dict[str, Any]) -> Any:  # noqa: ANN401
+    try:
+        return kind(**values)
+    except TypeError as error:
+        raise GalleryError(f"{path} is damaged: {error}.") from error
+
+
+def _write(path: Path, key: str, values: list[dict[str, Any]], version: int) -> None:
+    text = json.dumps({"version": version, key: values}, indent=1, ensure_ascii=False)
+    write_text(path, text + "\n")

@@ -1,0 +1,188 @@
+"""What every method offers: a name, to detect and, where it learns, to be fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Protocol, Self, runtime_checkable
+
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.arrays import U8, Bool
+from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.detection import Detection
+from skyline_viz.skyline import Skyline
+from skyline_viz.system.headed_npz import Stored
+
+Model = Mapping[str, npt.NDArray[np.generic]]
+"""What a method has learned: arrays by name, as they are written to a file."""
+
+
+class MethodError(ValueError):
+    """A method is unknown, has not been trained, or lacks a package; the message says which."""
+
+
+class Method(Protocol):
+    """Finds skylines."""
+
+    @property
+    def name(self) -> str:
+        """Its name, one of `names.MethodName` or that of a file."""
+
+    def detect(self, photo: U8) -> Detection:
+        """Find the skyline of a photo.
+
+        Args:
+            photo: ``(H, W, 3)`` uint8 RGB.
+
+        Raises:
+            MethodError: It has not been trained.
+        """
+
+
+@runtime_checkable
+class Learner(Method, Protocol):
+    """A method that learns from photos with truth."""
+
+    @property
+    def family(self) -> str:
+        """Methods of one family learn the same, and can share it."""
+
+    def fit(self, items: Sequence[DatasetItem], seed: int = 0) -> Self:
+        """The method, trained on the photos of a data set; those without a truth are left out.
+
+        Args:
+            items: Photos with truth.
+            seed: Seed of all that is drawn.
+
+        Raises:
+            MethodError: A package that training needs is missing.
+            ValueError: No photo has a truth, or nothing can be learned from them.
+        """
+
+    def sharing(self, other: Self) -> Self:
+        """This method with what another of its family has learned."""
+
+
+@dataclass(frozen=True)
+class LearnedMethod:
+    """What methods with a `Model` have in common."""
+
+    name: str
+    """Its name."""
+
+    model: Model = field(default_factory=dict)
+    """What it has learned; empty before training."""
+
+    @property
+    def family(self) -> str:
+        """Methods of one family learn the same; here those whose names begin alike."""
+        return self.name
+
+    def learn(self, items: Sequence[DatasetItem], seed: int) -> Model:
+        """What there is to learn from photos with truth."""
+        raise NotImplementedError
+
+    def fit(self, items: Sequence[DatasetItem], seed: int = 0) -> Self:
+        """See `Learner.fit`."""
+        return replace(self, model=self.learn(items, seed))
+
+    def sharing(self, other: LearnedMethod) -> Self:
+        """See `Learner.sharing`."""
+        return replace(self, model=other.model)
+
+    def detect(self, photo: U8) -> Detection:
+        """See `Method.detect`."""
+        raise NotImplementedError
+
+    def model_shapes(self) -> Mapping[str, tuple[int | None, ...]]:
+        """Shape of each array of the model, None where any length will do."""
+        return {}
+
+    def check_announced(self, arrays: Mapping[str, Stored]) -> None:
+        """Refuse a file that announces other arrays than the model has, before they are read.
+
+        Raises:
+            ValueError: The message names the array.
+        """
+        for name, wanted in self.model_shapes().items():
+            if name not in arrays:
+                raise ValueError(f"its {name} is missing")
+            _check_array(name, arrays[name], wanted)
+
+    def check_model(self) -> None:
+        """Refuse a model whose arrays are missing, of another shape, or not finite.
+
+        Compiled loops trust these shapes.
+
+        Raises:
+            ValueError: The message names the array.
+        """
+        for name, wanted in self.model_shapes().items():
+            array = self.model.get(name)
+            if array is None:
+                raise ValueError(f"its {name} is missing")
+            _check_array(name, array, wanted)
+            if not np.isfinite(array).all():
+                raise ValueError(f"its {name} holds what is no finite number")
+
+    def part(self, name: str) -> npt.NDArray[np.generic]:
+        """An array of the model.
+
+        Raises:
+            MethodError: The method has not been trained.
+        """
+        self.require_trained()
+        if name not in self.model:
+            raise MethodError(f"{self.name} is damaged: its {name} is missing.")
+        return self.model[name]
+
+    def require_trained(self) -> None:
+        """Refuse to go on without having learned.
+
+        Raises:
+            MethodError: The method has not been trained.
+        """
+        if not self.model:
+            raise MethodError(
+                f"{self.name} has learned nothing yet; train it with: "
+                f"skyline-viz train DATASET --method {self.name} --out FILE"
+            )
+
+
+def _check_array(
+    name: str, array: Stored | npt.NDArray[np.generic], wanted: tuple[int | None, ...]
+) -> None:
+    """Refuse an array of another shape than the model's, or of no numbers.
+
+    Raises:
+        ValueError: The message names it.
+    """
+    fits = len(array.shape) == len(wanted) and all(
+        want in (None, have) for want, have in zip(wanted, array.shape, strict=True)
+    )
+    if not fits:
+        raise ValueError(f"its {name} has the shape {array.shape}")
+    if array.dtype.kind not in "uif":
+        raise ValueError(f"its {name} holds what is no finite number")
+
+
+def shown_to_learners(items: Sequence[DatasetItem]) -> Iterator[tuple[U8, Skyline]]:
+    """Photos and truths of a data set, those without a truth left out, read one at a time.
+
+    Raises:
+        ValueError: No photo has a truth.
+    """
+    pairs = [(item, truth) for item in items if (truth := item.truth()) is not None]
+    if not pairs:
+        raise ValueError("training needs at least one photo with a true skyline.")
+    return ((item.photo(), truth) for item, truth in pairs)
+
+
+def near_truth(shape: tuple[int, int], truth: Skyline, band: float) -> Bool:
+    """``(H, W)`` pixels within `band` rows of the truth; whole columns where it is not visible."""
+    rows = np.arange(shape[0], dtype=np.float32)[:, None]
+    near: Bool = np.abs(rows - truth.rows[None, :]) <= band
+    near |= ~truth.visible[None, :]
+    return near

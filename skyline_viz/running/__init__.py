@@ -1,0 +1,1 @@
+"""Many photos: processes, progress, and going on where a run was stopped."""

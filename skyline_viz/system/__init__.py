@@ -1,0 +1,1 @@
+"""What the project needs of the machine: names, memory, files that end well. Knows no photo."""

@@ -1,0 +1,1 @@
+"""All that logs to Rerun, its layouts, and the viewers that show it."""

@@ -1,0 +1,367 @@
+"""How the viewer lays a recording out: first the answer, then the stages, then the details.
+
+- *Skyline*: where is the line, and is it right?
+- *Stages*: the paper's figure 1, (a) to (f).
+- *Tensor*: what picks the filter.
+- *Filter bank*: the filters, and which of them the path used.
+- *Columns*: error, margin and costs along the columns.
+- *Diagnosis*: why it went wrong, where it did.
+- *Sweep*: how the path changes with a setting.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import rerun.blueprint as rrb
+
+from skyline_viz.system.names import shown_in_viewer
+from skyline_viz.viewer import entities
+from skyline_viz.viewer.entities import below
+
+TABS = ("Skyline", "Stages", "Tensor", "Filter bank", "Columns")
+"""The tabs of a recording of one photo with a full detection."""
+
+_BLACK = (12, 12, 12)
+_LINES = (entities.PATH, entities.TRUTH, entities.ALTERNATIVE)
+
+
+@dataclass(frozen=True)
+class MethodContents:
+    """What a recording holds of another method."""
+
+    name: str
+    """Its name."""
+
+    filters: bool = False
+    """Whether it is our detector, with other settings or filters."""
+
+    edges: bool = True
+    """Whether it looks for edges; else all pixels are candidates."""
+
+    maps: tuple[str, ...] = ()
+    """Names of its further maps."""
+
+
+@dataclass(frozen=True)
+class Contents:
+    """What a recording holds, which decides about its views."""
+
+    height: int
+    """Rows of the photo, of the first one where there are several."""
+
+    width: int
+    """Its columns."""
+
+    truth: bool = False
+    """Whether there is a truth."""
+
+    filters: bool = True
+    """Whether tensor and bins are in it: those of our detector are, other methods have none."""
+
+    maps: tuple[str, ...] = ()
+    """Names of the further maps of another method."""
+
+    bank: bool = True
+    """Whether the filter bank is in it."""
+
+    path_bins: bool = False
+    """Whether the `entities.COLUMN` timeline is in it."""
+
+    photos: int = 1
+    """Number of photos on the `entities.IMAGE` timeline."""
+
+    diagnosed: bool = False
+    """Whether there is a diagnosis with failing segments."""
+
+    stacked_costs: bool = True
+    """Whether the picture of what path and truth pay is in it, where there is a diagnosis."""
+
+    compared: str = ""
+    """Name of the second detection; nothing without one."""
+
+    methods: tuple[MethodContents, ...] = ()
+    """Other methods on the photo."""
+
+    swept: str = ""
+    """Timeline of the setting that is swept first; nothing without a sweep."""
+
+
+def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blueprint:
+    """Layout of a recording of detections.
+
+    Args:
+        contents: What the recording holds.
+        active: Name of the tab in front.
+    """
+    tabs = [
+        _first_tab(contents),
+        _stages_tab(contents, _figure_1(contents), "Stages"),
+        *([_tensor_tab(contents)] if contents.filters else []),
+        *([_bank_tab(contents)] if contents.bank else []),
+        _columns_tab(contents),
+        *([_diagnosis_tab(contents)] if contents.diagnosed else []),
+        *([_sweep_tab(contents)] if contents.swept else []),
+        *([_compare_tab(contents)] if contents.compared else []),
+        *([_methods_tab(contents)] if contents.methods else []),
+        *(_method_tab(contents, one) for one in contents.methods),
+        *([_photos_tab(contents)] if contents.photos > 1 else []),
+    ]
+    return _with_panels(tabs, contents, active)
+
+
+def stages_blueprint(height: int, width: int, stages: Iterable[str]) -> rrb.Blueprint:
+    """Layout of what `recording.log_stages` logged.
+
+    Args:
+        height: Rows of the photo.
+        width: Its columns.
+        stages: Names of the maps.
+    """
+    contents = Contents(height, width)
+    views = {name.rsplit("/", 1)[-1].capitalize(): [name] for name in stages}
+    views = {"Photo": [entities.PHOTO], **views, "Skyline": [entities.PHOTO, *_with_halos()]}
+    line = _photo_view("Where is the line?", [entities.PHOTO, *_with_halos()])
+    tabs = [
+        rrb.Vertical(line, name="Skyline"),
+        _grid(contents, [_photo_view(*one) for one in views.items()], "Stages"),
+    ]
+    return _with_panels(tabs, contents, "Skyline")
+
+
+def _first_tab(contents: Contents) -> rrb.Container:
+    line = _photo_view(
+        "Where is the line? magenta: path"
+        + (", turquoise: truth" if contents.truth else "")
+        + (f", yellow: {contents.compared}" if contents.compared else ""),
+        [entities.PHOTO, *_with_halos(), entities.STRIP, entities.CHOSEN],
+    )
+    plot = _errors() if contents.truth else _plot(entities.MARGINS, "Margin (cost)")
+    report = rrb.TextDocumentView(origin=entities.REPORT, name="Report")
+    if contents.width < 1.2 * contents.height:
+        side = rrb.Vertical(report, plot, row_shares=[3, 2])
+        return rrb.Horizontal(line, side, column_shares=[3, 2], name="Skyline")
+    foot = rrb.Horizontal(plot, report, column_shares=[3, 2])
+    return rrb.Vertical(line, foot, row_shares=[3, 2], name="Skyline")
+
+
+def _stages_tab(contents: Contents, stages: dict[str, list[str]], name: str) -> rrb.Container:
+    views = [_photo_view(title, shown) for title, shown in stages.items()]
+    return _grid(contents, views, name)
+
+
+def _figure_1(contents: Contents) -> dict[str, list[str]]:
+    views = {
+        "Photo": [entities.PHOTO],
+        "Edges": [entities.EDGES],
+        "Score: bright like skyline": [entities.SCORE],
+        **({"Gradient strength": [entities.STRENGTH]} if contents.filters else {}),
+        **{name.capitalize(): [entities.map_of(name)] for name in contents.maps},
+        "Nodal cost: bright is cheap": [entities.COST],
+        "Path": [entities.PHOTO, *_with_halos()],
+    }
+    return {
+        f"({'abcdefghij'[at]}) {title}": shown for at, (title, shown) in enumerate(views.items())
+    }
+
+
+def _tensor_tab(contents: Contents) -> rrb.Container:
+    views = {
+        "Strength (grey levels/px)": [entities.STRENGTH],
+        "Coherence": [entities.COHERENCE],
+        "Orientation of the gradient (degrees)": [entities.ORIENTATION],
+        "Bin: hue is orientation, brighter is stronger": [entities.BIN],
+    }
+    return _stages_tab(contents, views, "Tensor")
+
+
+def _bank_tab(contents: Contents) -> rrb.Container:
+    filters = rrb.Spatial2DView(
+        origin="bank",
+        contents=[f"+ /{entities.BANK_FILTERS}/**", f"+ /{entities.BANK_CHOSEN}"],
+        name="Filters: blue negative, red positive taps",
+        background=_BLACK,
+    )
+    samples = rrb.Spatial2DView(
+        origin="bank",
+        contents=[f"+ /{entities.BANK_SAMPLES}/**", f"+ /{entities.BANK_CHOSEN}"],
+        name="Training samples in each bin",
+        background=_BLACK,
+    )
+    pictures = rrb.Horizontal(filters, samples)
+    if not contents.path_bins:
+        return rrb.Horizontal(filters, samples, name="Filter bank")
+    photo = _photo_view(
+        "The chosen pixel of the path: scrub the column timeline",
+        [entities.PHOTO, *_with_halos([entities.PATH]), entities.CHOSEN],
+    )
+    about = rrb.TextDocumentView(origin=entities.BANK_USED, name="The filter it used")
+    foot = rrb.Horizontal(photo, about, column_shares=[3, 2])
+    return rrb.Vertical(pictures, foot, row_shares=[3, 1], name="Filter bank")
+
+
+def _columns_tab(contents: Contents) -> rrb.Container:
+    plots = [
+        *([_errors()] if contents.truth else []),
+        _plot(entities.MARGINS, "Margin (cost): how much dearer the best other path is"),
+        _plot(entities.NODE_COSTS, "Nodal cost of the path"),
+        _plot(entities.LINK_COSTS, "Link cost of the path"),
+        *([_plot(entities.DIFFERENCES, "Difference (px)")] if contents.compared else []),
+    ]
+    return rrb.Vertical(*plots, name="Columns")
+
+
+def _diagnosis_tab(contents: Contents) -> rrb.Container:
+    marks = [f"{entities.SEGMENTS}/**", entities.TRUTH_MISSED, entities.TRUTH_STARVED]
+    lines = _with_halos([entities.PATH, entities.TRUTH, entities.COUNTERFACTUAL])
+    photo = _photo_view(
+        "Yellow: the path with its cause made right. On the truth, orange: no edge; blue: starved",
+        [entities.PHOTO, *lines, *marks],
+        # else frames and their words at a rim push the photo out of the view
+        rrb.VisualBounds2D(x_range=(0, contents.width), y_range=(0, contents.height)),
+    )
+    report = rrb.TextDocumentView(origin=entities.DIAGNOSIS, name="Why")
+    costs = _photo_view("What they pay", [entities.STACKED_COSTS])
+    plot = costs if contents.stacked_costs else _errors()
+    foot = rrb.Horizontal(plot, report, column_shares=[2, 1])
+    return rrb.Vertical(photo, foot, row_shares=[3, 2], name="Diagnosis")
+
+
+def _sweep_tab(contents: Contents) -> rrb.Container:
+    photo = _photo_view(
+        "Choose a timeline below and drag it. Yellow: path with that setting, magenta: path now"
+        + (", turquoise: truth" if contents.truth else ""),
+        [entities.PHOTO, *_with_halos([entities.PATH, entities.TRUTH, entities.SWEEP_PATH])],
+    )
+    edges = _photo_view("Edges", [entities.SWEEP_EDGES])
+    cost = _photo_view("Nodal cost: bright is cheap", [entities.SWEEP_COST])
+    pictures = rrb.Vertical(photo, rrb.Horizontal(edges, cost), row_shares=[3, 2])
+    plot = rrb.TimeSeriesView(
+        origin=entities.SWEEP_ERROR,
+        name="A_err (px)" if contents.truth else "Mean distance from the present path (px)",
+        plot_legend=rrb.PlotLegend(visible=False),
+    )
+    report = rrb.TextDocumentView(origin=entities.SWEEP_REPORT, name="The setting")
+    side = rrb.Vertical(report, plot, row_shares=[3, 2])
+    return rrb.Horizontal(pictures, side, column_shares=[2, 1], name="Sweep")
+
+
+def _compare_tab(contents: Contents) -> rrb.Container:
+    views = []
+    stages = {"edges": entities.EDGES, "score": entities.SCORE, "nodal cost": entities.COST}
+    for title, stage in stages.items():
+        views += [
+            _photo_view(f"First: {title}", [stage, *_with_halos([entities.PATH])]),
+            _photo_view(
+                f"{contents.compared}: {title}",
+                [below(entities.OTHER, stage), *_with_halos([entities.ALTERNATIVE])],
+            ),
+        ]
+    text = rrb.TextDocumentView(origin=entities.COMPARISON, name="What differs")
+    title = shown_in_viewer(f"Report of {contents.compared}")
+    other = rrb.TextDocumentView(origin=below(entities.OTHER, entities.REPORT), name=title)
+    shares = [4, 4, 4, 6]  # the reports need their lines
+    return rrb.Grid(*views, text, other, grid_columns=2, row_shares=shares, name="Compare")
+
+
+def _methods_tab(contents: Contents) -> rrb.Container:
+    lines = _with_halos([entities.PATH, entities.TRUTH, entities.METHOD_LINES])
+    photo = _photo_view(
+        "What each method finds",
+        [entities.PHOTO, *lines],
+        rrb.VisualBounds2D(x_range=(0, contents.width), y_range=(0, contents.height)),
+    )
+    table = rrb.TextDocumentView(origin=entities.METHODS_TABLE, name="Methods")
+    costs = [
+        _photo_view(
+            f"{one.name}: nodal cost",
+            [
+                below(_stages_of(one), entities.COST),
+                *_with_halos([f"{entities.METHOD_LINES}/{one.name}"]),
+            ],
+        )
+        for one in contents.methods[:3]
+    ]
+    foot = rrb.Horizontal(table, *costs)
+    return rrb.Vertical(photo, foot, row_shares=[3, 2], name="Methods")
+
+
+def _method_tab(contents: Contents, one: MethodContents) -> rrb.Container:
+    """The stages of a method, as the stages of ours."""
+    own = Contents(contents.height, contents.width, filters=one.filters, maps=one.maps)
+    no_view = ("Photo",) if one.edges else ("Photo", "Edges")
+    line = f"{entities.METHOD_LINES}/{one.name}"
+    views = {}
+    for title, shown in _figure_1(own).items():
+        if title.endswith("Path"):
+            views["Path"] = [entities.PHOTO, *_with_halos([line, entities.TRUTH])]
+        elif not title.endswith(no_view):
+            views[title.split(") ", 1)[1]] = [below(_stages_of(one), stage) for stage in shown]
+    pictures = [_photo_view(title, shown) for title, shown in views.items()]
+    report = rrb.TextDocumentView(origin=below(_stages_of(one), entities.REPORT), name="Report")
+    return _grid(contents, [*pictures, report], one.name)
+
+
+def _stages_of(one: MethodContents) -> str:
+    return f"{entities.METHODS}/{one.name}"
+
+
+def _photos_tab(contents: Contents) -> rrb.Container:
+    metrics = [("a_err", "A_err of each photo (px)")] if contents.truth else []
+    metrics.append(("margin", "Margin of each photo (cost)"))
+    plots = [
+        rrb.TimeSeriesView(origin=f"{entities.METRICS}/{metric}", name=title)
+        for metric, title in metrics
+    ]
+    times = rrb.TimeSeriesView(origin=entities.TIMINGS, name="Time of each stage (ms)")
+    return rrb.Vertical(*plots, times, name="Photos")
+
+
+def _errors() -> rrb.View:
+    return _plot(entities.ERRORS, "Error (px) in each column")
+
+
+def _plot(entity: str, title: str) -> rrb.View:
+    legend = rrb.PlotLegend(visible=False)
+    return rrb.BarChartView(origin=entity, name=title, plot_legend=legend)
+
+
+def _photo_view(
+    title: str, shown: Iterable[str], bounds: rrb.VisualBounds2D | None = None
+) -> rrb.View:
+    return rrb.Spatial2DView(
+        visual_bounds=bounds,
+        origin="/",
+        contents=[f"+ /{entity}" for entity in shown],
+        name=shown_in_viewer(title),
+        background=_BLACK,
+    )
+
+
+def _with_halos(lines: Iterable[str] = _LINES) -> list[str]:
+    return [f"{line}/**" for line in lines]
+
+
+def _grid(contents: Contents, views: Sequence[rrb.View], name: str) -> rrb.Container:
+    """Two columns for wide photos, three for others: a panorama needs the width of the window."""
+    columns = 2 if contents.width > 1.6 * contents.height else 3
+    return rrb.Grid(*views, grid_columns=min(columns, len(views)), name=name)
+
+
+def _with_panels(tabs: list[rrb.Container], contents: Contents, active: str) -> rrb.Blueprint:
+    time = rrb.TimePanel(state="hidden")
+    if contents.photos > 1:
+        time = rrb.TimePanel(state="collapsed", timeline=entities.IMAGE, play_state="paused")
+    elif contents.swept:
+        time = rrb.TimePanel(state="collapsed", timeline=contents.swept, play_state="paused")
+    elif contents.path_bins:
+        time = rrb.TimePanel(state="collapsed", timeline=entities.COLUMN, play_state="paused")
+    return rrb.Blueprint(
+        rrb.Tabs(*tabs, active_tab=[tab.name for tab in tabs].index(active)),
+        time,
+        rrb.SelectionPanel(state="hidden"),
+        rrb.BlueprintPanel(state="hidden"),
+        auto_views=False,
+        auto_layout=False,
+    )

@@ -1,0 +1,177 @@
+"""A diagnosis as Rerun entities: failing segments, what the truth lacks there, and the proof."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import rerun as rr
+from matplotlib import rc_context
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from skyline_viz.arrays import U8, Int
+from skyline_viz.detection import Detection
+from skyline_viz.diagnosis.cost_split import CostSplit, split_cost
+from skyline_viz.diagnosis.counterfactual import Case
+from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment
+from skyline_viz.overlay import ALTERNATIVE, HALO
+from skyline_viz.skyline import Skyline
+from skyline_viz.viewer import entities
+from skyline_viz.viewer.column_views import LINE_RADIUS
+from skyline_viz.viewer.documents import markdown_document
+from skyline_viz.viewer.recording import Fidelity
+
+_FRAME, _MISSED, _STARVED = (0xF5, 0xF5, 0xF5), (0xE6, 0x9F, 0x00), (0x56, 0xB4, 0xE9)
+_STAGES = {
+    "score": "#56B4E9",
+    "strength": "#0072B2",
+    "edge": "#0072B2",
+    "no edge": "#E69F00",
+    "clear sky": "#CC79A7",
+    "terrain": "#009E73",
+    "link": "#999999",
+}
+"""Colours that people with colour-vision deficiency tell apart."""
+
+_NAMED = 3  # segments whose causes are written on the photo, those with the largest total error
+_LEAST_FRAME = 6  # columns that the frame of a segment is wide at least
+_BEYOND = 8  # columns beside a segment in which the counterfactual path is drawn
+_SMOOTH = 9  # columns over which stacked costs are averaged
+
+
+def log_diagnosis(
+    recording: rr.RecordingStream,
+    diagnosis: Diagnosis,
+    detection: Detection,
+    truth: Skyline,
+    name: str = "",
+    fidelity: Fidelity = "full",
+) -> None:
+    """Log a diagnosis beside its detection.
+
+    Args:
+        recording: Where to.
+        diagnosis: The diagnosis.
+        detection: The detection.
+        truth: The true line.
+        name: Name of the photo, for the report.
+        fidelity: How much to keep; *lean* leaves the stacked costs out, whose picture takes a third
+            of a lean recording, and several times as long as the rest.
+    """
+    text = diagnosis.markdown(name)
+    recording.log(entities.DIAGNOSIS, markdown_document(text))
+    if diagnosis.right:
+        return
+    case = Case(detection, truth, diagnosis.tolerance)
+    height = len(detection.photo)
+    boxes, lines = [], []
+    room = height / 40
+    for segment in diagnosis.segments:
+        first, last = segment.columns
+        part = slice(first, last + 1)
+        both = np.concatenate([truth.rows[part], detection.skyline.rows[part]])
+        wide = max(last + 1 - first, _LEAST_FRAME)
+        left = (first + last + 1 - wide) / 2
+        boxes.append((left, both.min() - room, wide, np.ptp(both) + 2 * room))
+        if segment.proof and segment.cause != "truth doubtful":
+            lines.append(_around(segment))
+    corners = np.array(boxes, np.float32).reshape(-1, 4)
+    by_error = sorted(range(len(boxes)), key=lambda at: -diagnosis.segments[at].total_error)
+    named = by_error[:_NAMED]
+    causes = [diagnosis.segments[at].cause for at in named]
+    for entity, shown, labels in (
+        (entities.SEGMENTS, by_error[_NAMED:], None),
+        (f"{entities.SEGMENTS}/largest", named, causes),
+    ):
+        frames = rr.Boxes2D(
+            mins=corners[shown, :2],
+            sizes=corners[shown, 2:],
+            labels=labels,
+            colors=[_FRAME],
+            radii=[-1.0],
+            draw_order=20.0,
+        )
+        recording.log(entity, frames)
+    for place, colour, across, order in (
+        (f"{entities.COUNTERFACTUAL}/halo", HALO, LINE_RADIUS + 1, 41.0),
+        (entities.COUNTERFACTUAL, ALTERNATIVE, LINE_RADIUS, 42.0),
+    ):
+        strips = rr.LineStrips2D(lines, colors=[colour], radii=[-across], draw_order=order)
+        recording.log(place, strips)
+    _log_truth_pixels(recording, case)
+    if fidelity == "lean":
+        return
+    path = split_cost(detection, detection.skyline.rows.astype(np.int32))
+    ideal = split_cost(detection, case.rows)
+    recording.log(entities.STACKED_COSTS, rr.Image(stacked_costs(path, ideal)))
+
+
+def stacked_costs(path: CostSplit, truth: CostSplit) -> U8:
+    """A picture ``(h, w, 3)`` of what path and truth pay in each column, stacked by stage."""
+    style: dict[Any, Any] = {
+        "axes.facecolor": "#0c0c0c",
+        "figure.facecolor": "#0c0c0c",
+        "text.color": "#dddddd",
+        "axes.labelcolor": "#dddddd",
+        "xtick.color": "#dddddd",
+        "ytick.color": "#dddddd",
+        "axes.edgecolor": "#555555",
+        "font.size": 11,
+    }
+    with rc_context(style):
+        figure = Figure(figsize=(12.6, 3.6), dpi=100, layout="constrained")
+        canvas: Any = FigureCanvasAgg(figure)
+        both = figure.subplots(1, 2, sharey=True)
+        for axes, split, title in zip(both, (path, truth), ("Path", "Truth"), strict=True):
+            costs = np.array([_smooth(one) for one in split.stages.values()])
+            columns = np.arange(costs.shape[1])
+            colours = [_STAGES[stage] for stage in split.stages]
+            for sign in (np.maximum, np.minimum):  # gains go below the axis
+                axes.stackplot(columns, sign(costs, 0), colors=colours, linewidth=0)
+            axes.plot(columns, costs.sum(axis=0), color="white", linewidth=0.8)
+            axes.set_title(f"{title}: cost of each column")
+            axes.margins(x=0)
+            axes.set_xlabel("column")
+        handles = [both[0].collections[at] for at in range(len(path.stages))]
+        figure.legend(
+            handles, list(path.stages), loc="outside lower center", ncols=6, frameon=False
+        )
+        canvas.draw()
+        picture: U8 = np.asarray(canvas.buffer_rgba())[..., :3].copy()
+    return picture
+
+
+def _around(segment: Segment) -> npt.NDArray[np.float32]:
+    """Points of the path that was brought back, in a segment and a little beyond."""
+    start, rows = segment.line
+    first = max(segment.columns[0] - _BEYOND - start, 0)
+    stop = segment.columns[1] + 1 + _BEYOND - start
+    part = rows[first:stop]
+    places = start + first + np.arange(len(part)) + 0.5
+    return np.column_stack([places, part]).astype(np.float32)
+
+
+def _log_truth_pixels(recording: rr.RecordingStream, case: Case) -> None:
+    """Mark where the truth has no edge, and where its edge pixels are in starved bins."""
+    on_edge = case.pixels >= 0
+    starved = np.zeros(len(on_edge), np.bool_)
+    detection = case.detection
+    starved[on_edge] = detection.starved[case.pixels[on_edge]]
+    for entity, where, colour in (
+        (entities.TRUTH_MISSED, ~on_edge & case.truth.visible, _MISSED),
+        (entities.TRUTH_STARVED, starved & case.truth.visible, _STARVED),
+    ):
+        points = _points(np.flatnonzero(where), case.rows)
+        marks = rr.Points2D(points, colors=[colour], radii=[-2.0], draw_order=45.0)
+        recording.log(entity, marks)
+
+
+def _points(columns: npt.NDArray[np.intp], rows: Int) -> npt.NDArray[np.float32]:
+    return np.column_stack([columns + 0.5, rows[columns]]).astype(np.float32)
+
+
+def _smooth(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    padded = np.pad(values, _SMOOTH // 2, mode="edge")  # or it would droop at the rims
+    return np.convolve(padded, np.full(_SMOOTH, 1 / _SMOOTH), mode="valid")

@@ -1,0 +1,246 @@
+"""A detection as Rerun entities: what every stage saw, ready to be looked at.
+
+    with new_recording("photo.rrd", "photo.jpg") as recording:
+        log_detection(recording, detection, truth)
+
+Everything goes to the recording that is passed in; there is no global one. Where things are is
+written in `skyline_viz.entities`. Coordinates are Rerun's: the pixel in row r and column c covers
+x from c to c + 1 and y from r to r + 1; a skyline, the upper side of the first terrain pixels, lies
+at y = row.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from functools import partial
+from typing import Literal, TypeAlias
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+import rerun as rr
+import rerun.blueprint as rrb
+import rerun_bindings
+
+from skyline_viz.arrays import U8, Bool, check_photo
+from skyline_viz.detection import Detection
+from skyline_viz.detector import FilterDetection
+from skyline_viz.evaluation.verdict import Verdict
+from skyline_viz.files import replacing
+from skyline_viz.overlay import PATH, TRUTH
+from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.system.endings import held_back
+from skyline_viz.system.memory import FULL_MEGAPIXELS
+from skyline_viz.system.names import printable, recording_id, shown_in_viewer
+from skyline_viz.viewer import entities
+from skyline_viz.viewer.bank_recording import log_filter_bank
+from skyline_viz.viewer.blueprints import Contents, detection_blueprint, stages_blueprint
+from skyline_viz.viewer.column_views import TRUTH_RADIUS, log_columns, log_line
+from skyline_viz.viewer.documents import markdown_document
+from skyline_viz.viewer.report import report
+from skyline_viz.viewer.rerun_file import saved
+from skyline_viz.viewer.stage_maps import (
+    QUANTITIES,
+    log_detour,
+    log_exact_map,
+    log_maps,
+    shown_pixels,
+)
+from skyline_viz.viewer.value_maps import Quantity
+
+APPLICATION = "skyline-viz"
+"""Application id of all recordings: they share what is changed about the layout by hand."""
+
+Fidelity: TypeAlias = Literal["lean", "full"]
+"""How much is kept.
+
+*lean*, for data sets: the photo as JPEG; maps, in 255 levels, of the `stage_maps.LEAN_PIXELS`
+cheapest edge pixels of each column, and of those on the path and on the truth.
+*full*, for a photo: the photo without loss; tensor, cost and detour of every pixel, score and bin
+of every edge pixel, to four digits on hovering, and exact as numbers.
+"""
+
+_BATCH = 1 << 18  # bytes: less than a map
+
+_RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
+
+_LEAN_JPEG = 75  # quality: at 85 the photo takes a third of a lean recording
+
+
+@contextmanager
+def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.RecordingStream]:
+    """Write a recording to a file, which appears when it is complete.
+
+    When the work is interrupted by Ctrl-C, the file holds what was logged before.
+
+    Args:
+        path: The ``.rrd`` file.
+        name: What the viewer calls the recording.
+
+    Raises:
+        OSError: The disk is full; what was at `path` is untouched.
+    """
+    interrupted: KeyboardInterrupt | None = None
+    # streams that nobody holds any more keep what was logged, 2 MB a photo, until told to let go
+    rerun_bindings.flush_and_cleanup_orphaned_recordings()
+    with replacing(path) as temporary:
+        batches = rr.ChunkBatcherConfig.DEFAULT()
+        batches.flush_num_bytes = _BATCH  # compress maps while the next ones are made
+        with held_back():  # half a stream complains when it goes
+            recording = rr.RecordingStream(
+                APPLICATION, recording_id=recording_id(name), batcher_config=batches
+            )
+        recording.set_log_time_enabled(False)  # else a photo would be a film of its stages
+        with saved(recording, temporary):
+            try:
+                recording.send_recording_name(shown_in_viewer(printable(name)))
+                yield recording
+            except KeyboardInterrupt as stopped:
+                interrupted = stopped
+    if interrupted:
+        raise interrupted
+
+
+def fidelity_of(pixels: int, full_megapixels: float = FULL_MEGAPIXELS) -> Fidelity:
+    """How much to keep of photos of so many pixels in all.
+
+    >>> fidelity_of(1388 * 519), fidelity_of(20000 * 2000)
+    ('full', 'lean')
+    """
+    return "full" if pixels <= full_megapixels * 1e6 else "lean"
+
+
+def log_detection(
+    recording: rr.RecordingStream,
+    detection: Detection,
+    truth: Skyline | None = None,
+    *,
+    name: str = "",
+    fidelity: Fidelity = "full",
+    under: str = "",
+) -> Verdict:
+    """Log all stages of a detection.
+
+    Args:
+        recording: Where to; its current time, such as ``recording.set_time("image", sequence=3)``,
+            holds for everything that is logged.
+        detection: The detection.
+        truth: The true skyline, to compare with.
+        name: Name of the photo, for the report.
+        fidelity: How much to keep.
+        under: Parent of all entity paths, to keep two detections apart.
+
+    Returns:
+        What the detection comes to.
+
+    Raises:
+        SkylineError: The truth has another width than the photo.
+    """
+    at = partial(entities.below, under)
+    photo = detection.photo
+    height = len(photo)
+    shown = shown_pixels(detection, truth) if fidelity == "lean" else None
+    recording.log(at(entities.PHOTO), _encoded(photo, fidelity))
+    recording.log(at(entities.EDGES), encoded_edges(detection.edges))
+    count = log_maps(recording, at, detection, shown)
+    unsure = detection.uncertainty()  # while the maps above are being compressed
+    verdict = Verdict.of(detection.skyline, unsure.margins, height, truth)
+    log_detour(recording, at, detection, unsure.detour, shown)
+    log_line(recording, at(entities.PATH), detection.skyline, PATH)
+    if truth:
+        log_line(recording, at(entities.TRUTH), truth, TRUTH, TRUTH_RADIUS)
+    else:
+        recording.log(at(entities.TRUTH), rr.Clear(recursive=True))  # an earlier photo's
+    log_columns(recording, at, detection, unsure.margins, truth)
+    for metric in ("a_err", "worst_error", "margin"):
+        value = getattr(verdict, metric)
+        if value is not None:
+            recording.log(at(f"{entities.METRICS}/{metric}"), rr.Scalars(value))
+    for stage, seconds in detection.seconds.items():
+        recording.log(at(f"{entities.TIMINGS}/{stage}"), rr.Scalars(1000 * seconds))
+    text = report(name, detection, verdict, count)
+    recording.log(at(entities.REPORT), markdown_document(text))
+    if fidelity == "full":
+        ours = isinstance(detection, FilterDetection)
+        if isinstance(detection, FilterDetection):
+            log_filter_bank(recording, detection.bank, under=under)
+        if not under:
+            contents = Contents(
+                height,
+                photo.shape[1],
+                truth=truth is not None,
+                filters=ours,
+                maps=tuple(detection.maps),
+                bank=ours,
+            )
+            _lay_out(recording, detection_blueprint(contents))
+    return verdict
+
+
+def log_stages(
+    recording: rr.RecordingStream,
+    photo: U8,
+    maps: Mapping[str, npt.NDArray[np.floating] | Bool],
+    skyline: Skyline,
+    truth: Skyline | None = None,
+) -> None:
+    """Log the stages of another detector, whatever they are, for the same views.
+
+    Names that `skyline_viz.entities` knows, such as ``"edges"`` or ``"tensor/strength"``, appear
+    where ours do; others get a view of their own from `blueprints.stages_blueprint`.
+
+    Args:
+        recording: Where to.
+        photo: ``(H, W, 3)`` uint8 RGB.
+        maps: Name and map of each stage: ``(H, W)``, NaN or False where there is no value.
+        skyline: The detected line.
+        truth: The true line.
+
+    Raises:
+        TypeError: The photo is not a uint8 array.
+        ValueError: A map or the photo has another shape.
+        SkylineError: A line has another width than the photo.
+    """
+    check_photo(photo)
+    height, width = photo.shape[:2]
+    for line in (skyline, truth):
+        if line is not None and line.width != width:
+            raise SkylineError(f"the photo is {width} columns wide, the skyline {line.width}")
+    for stage, values in maps.items():
+        if values.shape != (height, width):
+            raise ValueError(f"{stage} has the shape {values.shape}, the photo {(height, width)}")
+    recording.log(entities.PHOTO, _encoded(photo, "full"))
+    for stage, values in maps.items():
+        if values.dtype == np.bool_:
+            recording.log(stage, encoded_edges(np.asarray(values, np.bool_)))
+        else:
+            quantity = QUANTITIES.get(stage, Quantity(stage.rsplit("/", 1)[-1]))
+            log_exact_map(recording, stage, quantity, values.astype(np.float32))
+    log_line(recording, entities.PATH, skyline, PATH)
+    if truth:
+        log_line(recording, entities.TRUTH, truth, TRUTH, TRUTH_RADIUS)
+    _lay_out(recording, stages_blueprint(height, width, maps))
+
+
+def _lay_out(recording: rr.RecordingStream, layout: rrb.Blueprint) -> None:
+    """Give a recording a layout, for whoever has not made one of their own."""
+    recording.send_blueprint(layout, make_active=False, make_default=True)
+
+
+def _encoded(photo: U8, fidelity: Fidelity) -> rr.EncodedImage:
+    backwards = cv2.cvtColor(photo, cv2.COLOR_RGB2BGR)
+    if fidelity == "lean":
+        _, data = cv2.imencode(".jpg", backwards, [cv2.IMWRITE_JPEG_QUALITY, _LEAN_JPEG])
+        return rr.EncodedImage(contents=data.tobytes(), media_type="image/jpeg")
+    _, data = cv2.imencode(".png", backwards, [cv2.IMWRITE_PNG_COMPRESSION, 1])
+    return rr.EncodedImage(contents=data.tobytes(), media_type="image/png")
+
+
+def encoded_edges(edges: Bool) -> rr.EncodedImage:
+    """Edge map ``(H, W)`` in white on black, one bit a pixel: a quarter of any other encoding."""
+    white = edges.astype(np.uint8) * np.uint8(255)
+    how = [cv2.IMWRITE_PNG_BILEVEL, 1, cv2.IMWRITE_PNG_COMPRESSION, 1]
+    _, data = cv2.imencode(".png", white, [*how, cv2.IMWRITE_PNG_STRATEGY, _RLE])
+    return rr.EncodedImage(contents=data.tobytes(), media_type="image/png")

@@ -1,0 +1,275 @@
+"""The live wire against a whole search under the same constraints."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from annotate.engine.edits import ORIGINS, EditError, Edits, paint
+from annotate.engine.live_wire import LiveWire
+from skyline_viz.constraints import Anchor, Constraints, PathError
+from skyline_viz.detector import Detector
+from skyline_viz.path import path_tables, shortest_path
+
+DETECTOR = Detector()
+CONFIG = DETECTOR.config
+
+
+def hills(seed, height=48, width=70):
+    random = np.random.default_rng(seed)
+    photo = np.full((height, width, 3), 210, np.uint8)
+    for top, grey in ((14, 150), (30, 70)):
+        line = top + 6 * np.sin(np.arange(width) / random.uniform(5, 15) + random.uniform(0, 6))
+        photo[np.arange(height)[:, None] >= line] = grey
+    noise = random.normal(0, 6, photo.shape)
+    return np.clip(photo + noise, 0, 255).astype(np.uint8)
+
+
+def searched(wire, photo):
+    """Rows by one whole search, and its margins."""
+    cost = DETECTOR.detect(photo).cost
+    anchors = tuple(Anchor(column, row) for column, row in wire.edits.anchors.items())
+    given = cost, CONFIG.delta, CONFIG.link_weight, Constraints(anchors)
+    return shortest_path(*given), path_tables(*given)
+
+
+def cost_of(rows, cost):
+    link = CONFIG.link_weight * np.abs(np.diff(rows.astype(int))).sum()
+    return cost[rows.astype(int), np.arange(len(rows))].sum(dtype=np.float64) + link
+
+
+@pytest.fixture
+def photo():
+    return hills(3)
+
+
+def test_the_proposal_is_the_detection(photo):
+    detection = DETECTOR.detect(photo)
+    wire = LiveWire(photo, DETECTOR)
+    assert wire.skyline == detection.skyline
+    np.testing.assert_allclose(wire.margin, detection.margins(), atol=1e-6)
+    assert set(wire.origin) == {ORIGINS.index("proposal")}
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.data())
+def test_every_line_is_the_cheapest_under_its_anchors(data):
+    photo = hills(data.draw(st.integers(0, 4)))
+    height, width = photo.shape[:2]
+    cost = DETECTOR.detect(photo).cost
+    wire = LiveWire(photo, DETECTOR)
+    history = [wire.edits]
+    for _ in range(data.draw(st.integers(1, 8))):
+        column = data.draw(st.integers(0, width - 1))
+        what = data.draw(st.sampled_from(["anchor", "preview", "remove", "undo"]))
+        if what == "undo":
+            wire.edits = history[-1]
+            continue
+        if what == "remove" and wire.edits.anchors:
+            history.append(wire.edits)
+            wire.edits = wire.edits.remove(data.draw(st.sampled_from(list(wire.edits.anchors))))
+            continue
+        near = [row for at, row in wire.edits.anchors.items() if abs(at - column) * 4 < height]
+        low = max([0, *(row - 8 for row in near)])
+        high = min([height - 1, *(row + 8 for row in near)])
+        if low > high:
+            continue
+        row = data.draw(st.integers(low, high))
+        before = wire.skyline
+        shown = wire.preview(column, row)
+        assert wire.skyline == before
+        if what == "anchor":
+            history.append(wire.edits)
+            assert wire.anchor(column, row) == shown
+            assert wire.skyline.rows[column] == row
+    anchors = sorted(wire.edits.anchors.items())
+    steep = [abs(b[1] - a[1]) > CONFIG.delta * (b[0] - a[0]) for a, b in pairwise(anchors)]
+    if not any(steep):
+        path, tables = searched(wire, photo)
+        assert cost_of(wire.skyline.rows, cost) == pytest.approx(path.cost, abs=1e-4)
+        free = ~np.isin(np.arange(width), list(wire.edits.anchors))
+        column = data.draw(st.sampled_from(np.flatnonzero(free).tolist()))
+        through = tables.min_marginals[:, column]
+        for other in wire.alternatives(column):
+            detour = through[other.row] - through.min()
+            assert other.detour == pytest.approx(detour, abs=1e-4)
+
+
+def test_an_anchor_is_local(photo):
+    wire = LiveWire(photo, DETECTOR)
+    for column in (10, 35, 60):
+        wire.anchor(column, int(wire.skyline.rows[column]))
+    before = wire.skyline.rows.copy()
+    wire.anchor(47, int(before[47]) + 5)
+    changed = np.flatnonzero(wire.skyline.rows != before)
+    assert 47 in changed
+    assert 35 < changed.min() <= changed.max() < 60
+
+
+def test_margins_follow_the_anchors(photo):
+    wire = LiveWire(photo, DETECTOR)
+    wire.anchor(20, 31)
+    wire.anchor(50, int(wire.skyline.rows[50]))
+    anchors = Constraints((Anchor(20, 31), Anchor(50, wire.edits.anchors[50])))
+    cost = DETECTOR.detect(photo).cost
+    tables = path_tables(cost, CONFIG.delta, CONFIG.link_weight, anchors)
+    through = tables.min_marginals
+    best = through.argmin(axis=0)
+    far = np.abs(np.arange(len(through))[:, None] - best) > 5
+    expected = np.where(far, through, np.inf).min(axis=0) - through.min(axis=0)
+    np.testing.assert_allclose(wire.margin, expected, atol=1e-5)
+    assert np.isinf(wire.margin[[20, 50]]).all()
+
+
+def test_a_cliff_is_straight(photo):
+    wire = LiveWire(photo, DETECTOR)
+    wire.anchor(30, 5)
+    wire.anchor(32, 45)
+    rows = wire.skyline.rows
+    assert rows[[30, 31, 32]].tolist() == [5, 25, 45]
+    assert ORIGINS[wire.origin[31]] == "straight"
+    assert wire.preview(31, 40).rows[31] == 40
+
+
+def test_the_brush_keeps_the_line_out(photo):
+    wire = LiveWire(photo, DETECTOR)
+    row = int(wire.skyline.rows[35])
+    wire.forbid([(30, row), (40, row)], 3)
+    assert (np.abs(wire.skyline.rows[30:41] - row) > 3).all()
+    for column in (33, 34):
+        assert np.abs(wire.alternatives(column)[0].row - row) > 3
+    wire.forbid([(30, row), (40, row)], 6, allow=True)
+    assert wire.skyline == LiveWire(photo, DETECTOR).skyline
+
+
+def test_a_wall_is_refused_and_changes_nothing(photo):
+    wire = LiveWire(photo, DETECTOR)
+    before = wire.skyline
+    with pytest.raises(PathError, match="past what is forbidden"):
+        wire.forbid([(35, 0), (35, 47)], 4)
+    assert wire.skyline == before
+    assert wire.edits.strokes == ()
+    assert wire.anchor(35, 10).rows[35] == 10
+
+
+def test_spans_are_what_was_asked_for(photo):
+    wire = LiveWire(photo, DETECTOR)
+    wire.anchor(14, 20)
+    wire.straight(20, 40, 10, 20)
+    assert wire.skyline.rows[10:21].tolist() == list(range(20, 41, 2))
+    assert 14 not in wire.edits.anchors
+    wire.draw(40, [5, 25, 5])
+    assert wire.skyline.rows[40:43].tolist() == [5, 25, 5]
+    assert [ORIGINS[wire.origin[column]] for column in (15, 41)] == ["straight", "drawn"]
+    assert np.abs(np.diff(wire.skyline.rows[20:41])).max() <= CONFIG.delta
+    wire.anchor(15, 21)  # takes the place of the straight span
+    assert wire.skyline.rows[15] == 21
+    assert [span.kind for span in wire.edits.spans] == ["drawn"]
+
+
+def test_a_span_cuts_an_earlier_one():
+    edits = Edits(48, 70).draw(10, [7] * 20).straight(15, 7, 20, 9)
+    assert [(one.kind, one.first, one.last) for one in edits.spans] == [
+        ("drawn", 10, 14),
+        ("drawn", 21, 29),
+        ("straight", 15, 20),
+    ]
+
+
+def test_hidden_columns_are_not_visible(photo):
+    wire = LiveWire(photo, DETECTOR)
+    wire.hide(5, 20)
+    wire.hide(10, 12, hidden=False)
+    visible = wire.skyline.visible
+    assert np.flatnonzero(~visible).tolist() == [*range(5, 10), *range(13, 21)]
+    assert wire.skyline.rows.tolist() == LiveWire(photo, DETECTOR).skyline.rows.tolist()
+
+
+def test_releasing_columns_brings_the_proposal_back(photo):
+    wire = LiveWire(photo, DETECTOR)
+    proposal = wire.skyline
+    wire.anchor(12, 44)
+    wire.draw(30, [3] * 10)
+    wire.forbid([(50, 30)], 4)
+    wire.hide(0, 3)
+    wire.edits = wire.edits.release(0, 69)
+    assert wire.skyline == proposal
+
+
+def test_dragging_lifts_the_anchor(photo):
+    wire = LiveWire(photo, DETECTOR)
+    proposal = wire.skyline.rows
+    wire.anchor(35, 44)
+    row = int(proposal[50])
+    lifted = wire.preview(50, row, lifted=35)
+    np.testing.assert_array_equal(lifted.rows, proposal)
+    assert wire.skyline.rows[35] == 44
+    wire.edits = wire.edits.move(35, 50, row)
+    np.testing.assert_array_equal(wire.skyline.rows, proposal)
+
+
+def test_blind_labels_are_straight_lines(photo):
+    wire = LiveWire(photo, None)
+    assert wire.empty
+    with pytest.raises(PathError, match="nothing has been drawn"):
+        _ = wire.skyline
+    assert wire.alternatives(5) == []
+    wire.anchor(10, 20)
+    assert set(wire.skyline.rows) == {20}
+    wire.anchor(20, 40)
+    assert wire.skyline.rows[[0, 15, 60]].tolist() == [20, 30, 40]
+    wire.edits = wire.edits.remove(10).remove(20)
+    assert wire.empty
+
+
+@pytest.mark.parametrize(
+    ("ask", "sentence"),
+    [
+        (lambda wire: wire.anchor(70, 3), "lies outside the photo of 70x48"),
+        (lambda wire: wire.anchor(3, -1), "lies outside"),
+        (lambda wire: wire.straight(3, 3, 3, 9), "different columns"),
+        (lambda wire: wire.draw(3, []), "at least one column"),
+        (lambda wire: wire.draw(65, [4] * 6), "lies outside"),
+        (lambda wire: wire.forbid([], 3), "at least one point"),
+        (lambda wire: wire.forbid([(200, 3)], 3), "outside the photo"),
+        (lambda wire: wire.hide(80, 90), "outside the photo"),
+        (lambda wire: wire.preview(3, 3, lifted=9), "no anchor in column 9"),
+    ],
+)
+def test_edits_that_make_no_sense_are_one_sentence(photo, ask, sentence):
+    wire = LiveWire(photo, DETECTOR)
+    with pytest.raises(EditError, match=sentence) as refused:
+        ask(wire)
+    assert str(refused.value).endswith(".")
+    assert wire.edits == Edits(48, 70)
+
+
+def test_an_anchor_opens_a_piece_of_a_drawn_span():
+    edits = Edits(40, 1000).draw(100, [20] * 200).anchor(200, 5)
+    assert [(one.first, one.last) for one in edits.spans] == [(100, 179), (221, 299)]
+    assert dict(edits.anchors) == {200: 5}
+    ends = Edits(40, 1000).draw(100, [20] * 200).anchor(105, 5)
+    assert [(one.first, one.last) for one in ends.spans] == [(126, 299)]
+
+
+def test_a_stroke_on_others_is_painted_as_all_of_them_afresh():
+    chance = np.random.default_rng(0)
+    photo = hills(1)
+    wire, edits = LiveWire(photo, DETECTOR), Edits(*photo.shape[:2])
+    history = [edits]
+    for _ in range(60):
+        if len(history) > 1 and chance.random() < 0.3:
+            history.pop()
+        else:
+            column, row = int(chance.integers(0, 70)), int(chance.integers(30, 48))
+            points = [(column, row), (column + 6, row + 2)]
+            radius, allow = int(chance.integers(0, 4)), bool(chance.random() < 0.4)
+            history.append(history[-1].forbid(points, radius, allow=allow))
+        wire.edits = history[-1]
+        wire.refresh()
+        forbidden = paint(history[-1].strokes, *photo.shape[:2])
+        np.testing.assert_array_equal(
+            wire._allowed, np.where(forbidden, np.float32(np.inf), wire._cost)
+        )

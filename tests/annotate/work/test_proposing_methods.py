@@ -1,0 +1,91 @@
+"""Other methods propose: their lines, and what the store keeps of them."""
+
+import json
+
+import numpy as np
+import pytest
+
+from annotate.store.kept_detectors import pack, unpack
+from annotate.store.operations import SetAnchor, SetStatus
+from annotate.work import images
+from annotate.work.learning import LEAST, Learner
+from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.method import MethodError
+from skyline_viz.methods.edges_only import EdgesOnly
+from skyline_viz.methods.gradient import GradientCost
+from skyline_viz.methods.registry import make_method, method_digest
+from skyline_viz.skyline import Skyline
+from testing.labelling import hills, served, workbench, write_hills
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return write_hills(tmp_path, count=2)
+
+
+def proposing(folder, method):
+    return workbench(folder, detector=method)
+
+
+def test_a_label_goes_on_with_the_method_that_proposed_it(folder):
+    bench = proposing(folder, EdgesOnly(delta=9))
+    first, second = bench.photos
+    session = bench.session(first)
+    wanted = EdgesOnly(delta=9).detect(session.pixels).skyline.rows
+    np.testing.assert_array_equal(session.wire.skyline.rows, wanted)
+    session.apply(SetAnchor(column=10, row=12), -1)
+    assert session.wire.skyline.rows[10] == 12
+    bench.close()
+    bench = proposing(folder, GradientCost())
+    assert bench.session(first).detector == EdgesOnly(delta=9)
+    assert bench.session(first).wire.skyline.rows[10] == 12
+    assert bench.session(second).detector == GradientCost()
+    bench.close()
+    bench = workbench(folder)
+    assert bench.session(first).detector == EdgesOnly(delta=9)
+    bench.close()
+
+
+def test_every_stage_of_another_method_can_be_shown(folder):
+    bench = proposing(folder, EdgesOnly())
+    for name in ("edges", "score", "cost", "bin", "strength"):
+        assert images.stage(bench.detection(next(iter(bench.photos))), name)[1:4] == b"PNG"
+    bench.close()
+
+
+def test_a_method_that_has_learned_comes_back_as_it_was(folder, tmp_path):
+    Skyline(rows=np.full(70, 20.0)).write_csv(tmp_path / "truth.csv")
+    item = DatasetItem("hill-0", folder / "hill-0.png", tmp_path / "truth.csv")
+    method = make_method("svm-dcsi").fit([item])
+    kept = pack(method)
+    assert json.loads(kept.config) == {"method": "svm-dcsi"}
+    again = unpack(kept.config, kept.bank)
+    assert method_digest(again) == kept.digest
+    photo = hills(5)
+    np.testing.assert_array_equal(
+        again.detect(photo).skyline.rows, method.detect(photo).skyline.rows
+    )
+
+
+def test_learning_on_the_way_is_for_our_detector(tmp_path):
+    bench = proposing(write_hills(tmp_path, count=LEAST), GradientCost())
+    for photo in bench.photos:
+        bench.session(photo).apply(SetStatus(status="accepted"), -1)
+    learner = Learner(bench)
+    learner.start()
+    while learner.now().state == "running":
+        pass
+    assert learner.now().state == "failed"
+    assert "the method gradient proposes here" in learner.now().detail
+    bench.close()
+
+
+def test_a_method_that_fails_on_a_photo_is_a_sentence(tmp_path):
+    class Failing(EdgesOnly):
+        def detect(self, photo):
+            raise MethodError("the network is damaged.")
+
+    with served(write_hills(tmp_path, count=1), detector=Failing()) as client:
+        said = client.get("/api/photos/1")
+    assert said.status_code == 422
+    assert "the network is damaged." in said.text

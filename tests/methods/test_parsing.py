@@ -1,0 +1,252 @@
+"""Scene parsing: trained in PyTorch, run by OpenCV."""
+
+import pickle
+import sys
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from skyline_viz.diagnosis.diagnosing import diagnose
+from skyline_viz.evaluation.metrics import a_err
+from skyline_viz.method import Learner, MethodError
+from skyline_viz.methods.parsing import Fcn8s, Fcn16s, Fcn32s, SegNet
+from skyline_viz.methods.sky_boundary import MAP
+from skyline_viz.rendering import render
+from skyline_viz.skyline import Skyline
+from testing.deep import needs_deep
+
+METHODS = (Fcn8s, Fcn16s, Fcn32s, SegNet)
+SMALL = {"width": 1 / 8, "epochs": 32, "columns": 64}
+COARSE = {"width": 1 / 16, "epochs": 16, "columns": 96}  # 64 columns are two cells of FCN-32s
+
+
+@dataclass(frozen=True, eq=False)
+class Rendered:
+    """A photo of a data set that was never on a disk."""
+
+    scene: object
+    hidden: tuple = (0, 0)
+
+    def photo(self):
+        return self.scene.photo
+
+    def truth(self):
+        visible = np.ones(self.scene.truth.width, bool)
+        visible[slice(*self.hidden)] = False
+        return Skyline(self.scene.truth.rows, visible)
+
+
+@cache
+def scene(seed):
+    return render("clear", seed, 160, 120)
+
+
+def rendered(seeds):
+    return [Rendered(scene(seed)) for seed in seeds]
+
+
+@pytest.fixture
+def one_thread():
+    import torch  # noqa: PLC0415
+
+    threads = torch.get_num_threads()
+    torch.set_num_threads(1)
+    yield torch
+    torch.set_num_threads(threads)
+
+
+@needs_deep
+@pytest.mark.parametrize("method", METHODS)
+def test_from_photos_to_a_diagnosis(method, one_thread):
+    learner = method(**(COARSE if method is Fcn32s else SMALL))
+    assert isinstance(learner, Learner)
+    trained = learner.fit(rendered(range(8)), seed=1)
+    assert trained.name == learner.name == method.architecture
+    assert {name: array.dtype for name, array in trained.model.items()} == {
+        "network": np.uint8,
+        "columns": np.int32,
+    }
+    errors, guesses = [], []
+    for item in rendered(range(100, 106)):
+        detection = trained.detect(item.photo())
+        truth = item.truth()
+        assert detection.maps[MAP].shape == detection.cost.shape == (120, 160)
+        assert detection.edges.all() and 0 <= detection.scores.min() <= detection.scores.max() <= 1
+        found = diagnose(detection, truth)
+        assert found.right == bool((np.abs(detection.skyline.rows - truth.rows) <= 4).all())
+        errors.append(a_err(detection.skyline, truth))
+        guesses.append(a_err(Skyline(np.full(160, 60.0)), truth))
+    assert np.mean(errors) < 0.5 * np.mean(guesses)
+
+
+@needs_deep
+@pytest.mark.parametrize("method", METHODS)
+def test_opencv_computes_what_pytorch_does(method, one_thread):
+    from skyline_viz.methods.onnx_files import Network  # noqa: PLC0415
+    from skyline_viz.methods.parsing_nets import build  # noqa: PLC0415
+    from skyline_viz.methods.parsing_training import export  # noqa: PLC0415
+
+    torch = one_thread
+    for normalised in (True, False):
+        torch.manual_seed(3)
+        net = build(method.architecture, 1 / 16, normalised)
+        for name, values in net.named_parameters():
+            if "score" in name or "skips" in name:  # which begin with zeros
+                torch.nn.init.normal_(values)
+        net.train()
+        net(torch.randn(4, 3, 64, 64))  # for the running means
+        net.eval()
+        network = Network(export(net), "test")
+        for rows, columns in ((64, 96), (128, 32)):
+            photo = torch.randn(1, 3, rows, columns)
+            photo[..., :20, :20] = 0.5  # flat: many equal values in a window
+            with torch.no_grad():
+                expected = net(photo).numpy()
+            given = network.run(photo.numpy())
+            assert expected.shape == given.shape == (1, 1, rows, columns)
+            assert expected.std() > 1e-3
+            np.testing.assert_allclose(given, expected, atol=1e-4 * np.abs(expected).max())
+
+
+@needs_deep
+def test_values_are_put_back_as_by_max_unpooling(one_thread):
+    from torch.nn import functional as fn  # noqa: PLC0415
+
+    from skyline_viz.methods.parsing_nets import put_back  # noqa: PLC0415
+
+    full = one_thread.randint(0, 3, (2, 5, 8, 12)).float()  # with equal ones
+    top, indices = fn.max_pool2d(full, 2, return_indices=True)
+    values = one_thread.randn(top.shape)
+    assert one_thread.equal(put_back(values, full, top), fn.max_unpool2d(values, indices, 2))
+
+
+@needs_deep
+def test_enlarging_begins_bilinear(one_thread):
+    from skyline_viz.methods.parsing_nets import enlarging  # noqa: PLC0415
+
+    coarse = one_thread.randn(1, 1, 6, 7)
+    for factor in (2, 8, 32):
+        fine = enlarging(factor)(coarse)
+        expected = one_thread.nn.functional.interpolate(
+            coarse, scale_factor=factor, mode="bilinear", align_corners=False
+        )
+        inside = slice(factor, -factor)
+        one_thread.testing.assert_close(
+            fine[..., inside, inside], expected[..., inside, inside], atol=1e-5, rtol=0
+        )
+
+
+@needs_deep
+def test_equal_seeds_give_equal_networks_and_hidden_columns_do_not_count(one_thread):
+    quick = Fcn32s(width=1 / 32, epochs=2, columns=64)
+    items = rendered(range(3))
+    state = one_thread.get_rng_state()
+    first = quick.fit(items, seed=5).model["network"]
+    assert one_thread.equal(state, one_thread.get_rng_state())
+    assert np.array_equal(first, quick.fit(items, seed=5).model["network"])
+    assert not np.array_equal(first, quick.fit(items, seed=6).model["network"])
+
+    hidden = [Rendered(one.scene, (40, 100)) for one in items]
+    other = hidden[0].scene.truth.rows.copy()
+    other[40:100] = 0
+    wrong = [
+        Rendered(replace(one.scene, truth=Skyline(np.where(other == 0, 0, one.scene.truth.rows))))
+        for one in items
+    ]
+    told = [Rendered(one.scene, (40, 100)) for one in wrong]
+    unseen = quick.fit(hidden, seed=5).model["network"]
+    assert np.array_equal(unseen, quick.fit(told, seed=5).model["network"])
+    assert not np.array_equal(unseen, quick.fit(wrong, seed=5).model["network"])
+
+
+@needs_deep
+def test_pretrained_weights_are_read_and_used(tmp_path, one_thread):
+    from skyline_viz.methods.parsing_nets import build, load_backbone  # noqa: PLC0415
+
+    published = [0, 2, 5, 7, 10, 12, 14, 17, 19, 21, 24, 26, 28]
+    names = [f"features.{number}" for number in published]
+    for architecture in ("fcn-8s", "segnet"):
+        net = build(architecture, 1 / 32, normalised=architecture == "segnet")
+        assert [name for name, _ in net.backbone()] == names
+    state = {"classifier.0.weight": one_thread.zeros(3)}
+    for name, layer in build("fcn-8s", 1 / 32, normalised=False).backbone():
+        state[f"{name}.weight"] = one_thread.randn(layer.weight.shape)
+        state[f"{name}.bias"] = one_thread.randn(layer.bias.shape)
+    path = tmp_path / "vgg16.pth"
+    one_thread.save(state, path)
+    load_backbone(net, path)
+    for name, layer in net.backbone():
+        assert one_thread.equal(layer.weight, state[f"{name}.weight"])
+        assert one_thread.equal(layer.bias, state[f"{name}.bias"])
+    quick = Fcn8s(width=1 / 32, epochs=1, columns=64, pretrained=path)
+    before = quick.fit(rendered([1])).model["network"]
+    state["features.28.bias"] += 1
+    one_thread.save(state, path)
+    assert not np.array_equal(before, quick.fit(rendered([1])).model["network"])
+
+
+@needs_deep
+def test_pretrained_weights_that_do_not_fit_are_refused(tmp_path, one_thread):
+    from skyline_viz.methods.parsing_nets import build  # noqa: PLC0415
+
+    good = {}
+    for name, layer in build("fcn-8s", 1 / 32, normalised=False).backbone():
+        good |= {f"{name}.weight": layer.weight.data, f"{name}.bias": layer.bias.data}
+    quick = Fcn8s(width=1 / 32, epochs=1, columns=64)
+
+    def refused(content, reason, **settings):
+        path = tmp_path / "w.pth"
+        if isinstance(content, bytes):
+            path.write_bytes(content)
+        elif content is not None:
+            one_thread.save(content, path)
+        with pytest.raises(MethodError, match=reason) as caught:
+            replace(quick, pretrained=path, **settings).fit(rendered([1]))
+        assert "w.pth" in str(caught.value) and "\n" not in str(caught.value)
+
+    refused(None, "cannot be read: no such file")
+    refused(b"no weights", "is not a PyTorch file of weights")
+    refused([1, 2], "holds no state dict of VGG-16, but a list")
+    refused(good, r"features\.0\.weight of the shape \(2, 3, 3, 3\).*width of 1", width=1 / 8)
+    refused({"x": 1}, r"has no features\.0\.weight")
+    refused({**good, "features.28.bias": None}, r"has no features\.28\.bias")
+    # weights alone are read: nothing is run that a file brings along
+    refused(Fcn8s(), "is not a PyTorch file of weights")
+
+
+@needs_deep
+def test_it_goes_to_other_processes(one_thread):
+    trained = Fcn32s(width=1 / 32, epochs=1, columns=64).fit(rendered([1]))
+    photo = rendered([2])[0].photo()
+    first = trained.detect(photo)
+    assert pickle.loads(pickle.dumps(trained)).detect(photo).skyline == first.skyline
+    # what was learned at 64 columns is run at 64 columns, whatever the settings are
+    assert Fcn32s().sharing(trained).detect(photo).skyline == first.skyline
+
+
+def test_untrained_ones_say_so():
+    for method in METHODS:
+        name = method.architecture
+        with pytest.raises(MethodError, match=f"{name} has learned nothing yet"):
+            method().detect(np.zeros((40, 60, 3), np.uint8))
+
+
+@pytest.mark.parametrize("missing", ["torch", "onnx"])
+def test_a_missing_package_is_named_with_its_extra(monkeypatch, missing):
+    for module in [one for one in sys.modules if one.startswith("skyline_viz.methods.parsing_")]:
+        monkeypatch.delitem(sys.modules, module)
+    monkeypatch.setitem(sys.modules, missing, None)
+    monkeypatch.setitem(sys.modules, "onnx", None if missing == "onnx" else sys)
+    with pytest.raises(MethodError) as caught:
+        Fcn8s().fit(rendered([1]))
+    assert str(caught.value) == (
+        f"fcn-8s needs {missing} to be trained; install it with: pip install 'skyline-viz[deep]'"
+    )
+
+
+@pytest.mark.parametrize("settings", [{"width": 0}, {"epochs": 0}, {"columns": 8}])
+def test_settings_out_of_range_are_refused(settings):
+    with pytest.raises(ValueError, match="width is above 0"):
+        Fcn8s(**settings).fit(rendered([1]))
