@@ -1,5 +1,6 @@
-.PHONY: demo test check bench reliability pictures samples lock clean
+.PHONY: demo test check docs bench reliability pictures samples lock clean
 
+MKDOCS = NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict --quiet
 SOURCES = pyproject.toml requirements-dev.txt tools/setup.sh
 
 demo: .venv/.installed-run  ## Find the skylines of the samples, or of PHOTOS=FOLDER, and show them.
@@ -8,11 +9,16 @@ demo: .venv/.installed-run  ## Find the skylines of the samples, or of PHOTOS=FO
 test: check  ## Everything that must hold: lint, types, doctests, tests.
 	.venv/bin/python -m pytest -n auto --dist loadscope
 
-check: .venv/.installed-dev  ## Lint and types only.
+check: .venv/.installed-dev  ## Lint, types, direction of imports, docs with all their links.
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
 	.venv/bin/lint-imports
+	$(MKDOCS)
+
+docs: .venv/.installed-dev  ## The docs as a site, to read without a network: site/index.html.
+	$(MKDOCS)
+	@echo "Open site/index.html in a browser."
 
 bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the folder of the real data sets.
 	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)")
@@ -35,7 +41,7 @@ lock: .venv/.installed-dev  ## Renew the locked development set.
 	    --no-emit-index-url --no-header --output-file requirements-dev.txt
 
 clean:
-	rm -rf .venv build dist skyline-demo skyline-gallery
+	rm -rf .venv build dist site skyline-demo skyline-gallery
 
 .venv/.installed-run: $(SOURCES)
 	tools/setup.sh run
