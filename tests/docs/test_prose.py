@@ -1,11 +1,11 @@
 """The docs are easy to read: short sentences, few semicolons, and the field's own words."""
 
 import re
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from testing import ROOT
+
 PAGES = [
     ROOT / "README.md",
     ROOT / "CONTRIBUTING.md",

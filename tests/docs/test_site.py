@@ -12,8 +12,8 @@ from mkdocs.exceptions import Abort
 
 import annotate
 import skyline_viz
+from testing import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 OUTSIDE = re.compile(r"^(?:[a-z]+:)?//", re.IGNORECASE)
 
 
@@ -80,6 +80,11 @@ def test_what_pages_load_is_there(pages):
 )
 def test_every_public_name_is_in_the_reference(pages, name):
     assert any(name in loaded.ids for page, loaded in pages.items() if page.parent.name == "api")
+
+
+def test_examples_are_drawn_as_code(site):
+    for page in (site / "api").glob("*.html"):
+        assert "<blockquote>" not in page.read_text(), page  # >>> outside of a section Examples
 
 
 @pytest.mark.parametrize("page", ["method", "api/stages", "api/detector", "api/evaluation"])
