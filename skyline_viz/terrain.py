@@ -3,8 +3,8 @@ r"""Sky or terrain: what the photo looks like block by block, edges and learned 
 Ours, not the paper's. The underside of a cloud can be as strong an edge as a ridge, but what lies
 below it still looks like sky. A linear model $\mathbf{w}$ of a dozen features $\mathbf{f}$ of 8x8
 pixel blocks says so roughly, in about a tenth of a detection's time. Summed down the columns it
-tells, for every pixel, how well "all sky above here, all terrain below" fits the photo. In a block's centre, where the
-block itself counts half:
+tells, for every pixel, how well "all sky above here, all terrain below" fits the photo. In the
+centre of a block, where the block itself counts half:
 
 $$
 t(i, j) = \frac{1}{H} \sum_{k \le i} \text{clip}(\mathbf{w}^T \mathbf{f}(k, j), -1, 1)
