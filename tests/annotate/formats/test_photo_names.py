@@ -55,7 +55,7 @@ NAMES = st.text(
 ).filter(lambda name: not name.startswith(".") and len(name.encode()) < 100)
 
 
-@examples(15)
+@examples(15, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_exports_come_back_whatever_the_photos_are_called(tmp_path, data):
     root = tmp_path / str(random.random())
