@@ -8,23 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from skyline_viz.photo import (
-    MAX_MEGAPIXELS,
-    PhotoError,
-    photo_size,
-    read_photo,
-    write_photo,
-)
-from testing.pictures import (
-    EVERY_FORMAT,
-    LOSSLESS,
-    NOISE,
-    PHOTO,
-    bomb,
-    close,
-    refusal,
-    save,
-)
+from skyline_viz.photo import MAX_MEGAPIXELS, PhotoError, photo_size, read_photo, write_photo
+from testing.pictures import EVERY_FORMAT, LOSSLESS, NOISE, PHOTO, bomb, close, refusal, save
 
 
 @pytest.mark.parametrize("name", LOSSLESS)

@@ -15,11 +15,7 @@ from skyline_viz.method import Learner, MethodError
 from skyline_viz.methods.dense_scores import SvmScores
 from skyline_viz.methods.gradient import gradient_cost
 from skyline_viz.methods.names import MethodName
-from skyline_viz.methods.score_images import (
-    BAND,
-    LEAST_DEVIATION,
-    patches,
-)
+from skyline_viz.methods.score_images import BAND, LEAST_DEVIATION, patches
 from skyline_viz.methods.stable_edges import stable_edges
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline

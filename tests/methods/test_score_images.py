@@ -8,12 +8,7 @@ import pytest
 
 from skyline_viz.edges import find_edges
 from skyline_viz.methods.dense_scores import SvmScores, normalised
-from skyline_viz.methods.score_images import (
-    BAND,
-    best_of_columns,
-    draw_samples,
-    patches,
-)
+from skyline_viz.methods.score_images import BAND, best_of_columns, draw_samples, patches
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
 

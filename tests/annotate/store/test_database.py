@@ -8,14 +8,7 @@ from contextlib import closing
 import pytest
 
 import annotate.store.database as database
-from annotate.store.database import (
-    MIGRATIONS,
-    NAME,
-    Place,
-    StoreError,
-    backup,
-    on_network,
-)
+from annotate.store.database import MIGRATIONS, NAME, Place, StoreError, backup, on_network
 from annotate.store.store import Store
 from testing.labelling import served, write_hills
 from testing.labels import label, run
