@@ -53,6 +53,12 @@ def asked(revision=-1, **body):
     return {"id": str(uuid.uuid4()), "revision": revision, **body}
 
 
+def done(client, photo, operation, revision=-1):
+    """What the server answers to an operation."""
+    body = asked(revision, operation=operation)
+    return client.post(f"/api/photos/{photo}/operations", json=body)
+
+
 @contextmanager
 def served(folder, **how):
     """A real server on this machine, as a client that knows the token."""

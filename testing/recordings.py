@@ -8,6 +8,8 @@ import numpy as np
 from rerun.chunk import RrdReader
 
 import skyline_viz as sv
+from skyline_viz.config import FILTER_SIZES, TrainingConfig
+from skyline_viz.training import train
 from skyline_viz.viewer.process import PROGRAM
 
 
@@ -106,3 +108,11 @@ def scene(height=90, width=120, noise=6, seed=0):
     photo = np.where(sv.Skyline(rows).to_mask(height)[..., None], (150, 190, 230), (70, 80, 50))
     photo = photo + generator.normal(0, noise, photo.shape)
     return photo.clip(0, 255).astype(np.uint8), sv.Skyline(rows, np.arange(width) != 60)
+
+
+def banks_of_all_sizes():
+    """Filter banks of every size, learned from two scenes."""
+    return [
+        train([scene(seed=1), scene(seed=2)], 0, TrainingConfig(filter_size=size), "two scenes")
+        for size in FILTER_SIZES
+    ]
