@@ -26,9 +26,7 @@ from rerun.experimental import ViewerClient
 
 from skyline_viz.files import replacing
 from skyline_viz.system.aftermath import ended, started
-
-LOOPBACK = "127.0.0.1"
-"""The only address on which anything listens."""
+from skyline_viz.system.loopback import LOOPBACK
 
 PROGRAM = Path(str(rerun_cli.__file__)).with_name("rerun.exe" if os.name == "nt" else "rerun")
 """The viewer's program."""

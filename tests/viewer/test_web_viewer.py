@@ -92,7 +92,7 @@ def test_a_recording_that_is_gone_is_a_sentence(tmp_path, program):
         file.unlink()
         where = urlsplit(address)
         status, body, _ = ask(where, f"{where.path}0.rrd")
-    assert (status, body) == (410, b'{"detail": "the recording is not there any more."}')
+    assert (status, body) == (410, b'{"detail": "the file is not there any more."}')
 
 
 @pytest.mark.parametrize("path", ["", "re_viewer.js", "0.rrd"])
