@@ -7,11 +7,11 @@ import cv2
 import numpy as np
 from rerun.chunk import RrdReader
 
-from skyline_viz.viewer.process import PROGRAM
+from skyline_viz.viewer.rerun_internals import program
 
 
 def verify(path):
-    subprocess.run([PROGRAM, "rrd", "verify", path], check=True, capture_output=True)
+    subprocess.run([program(), "rrd", "verify", path], check=True, capture_output=True)
 
 
 class Read:

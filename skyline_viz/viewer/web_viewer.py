@@ -19,7 +19,7 @@ from skyline_viz.system import local_server
 from skyline_viz.system.local_server import Answer, Request
 from skyline_viz.system.loopback import policy
 from skyline_viz.viewer import process as viewer
-from skyline_viz.viewer.process import ViewerError
+from skyline_viz.viewer.rerun_internals import ViewerError, check_program_for_browsers
 
 POLICY = policy(scripts="'wasm-unsafe-eval'", images="blob: data:")
 """Content security policy of the page: the browser itself keeps it from contacting others."""
@@ -68,6 +68,7 @@ def viewer_program() -> dict[str, bytes]:
                     found[name] = answer.read()
         except OSError as error:
             raise ViewerError(f"the viewer's program cannot be fetched: {error}.") from error
+    check_program_for_browsers(found["re_viewer.js"])
     return found
 
 
