@@ -45,7 +45,7 @@ def until(what, patience=PATIENCE):
 
 
 class Robot:
-    """A hand for the viewer that listens on a port of this machine, for as long as a block lasts."""
+    """A hand for the viewer that listens on a port, for as long as a block lasts."""
 
     def __init__(self, port):
         self._process = started(

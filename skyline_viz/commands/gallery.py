@@ -228,7 +228,13 @@ def change_flags(
     from skyline_viz.gallery.store import Gallery  # noqa: PLC0415
 
     gone = dict.fromkeys(flags.read_flags(_existing(out)), "")
-    files = gone | {entry.name: entry.photo for entry in Gallery(out).entries().values()}
+    entries = Gallery(out).entries().values()
+    if not entries:
+        raise UsageError(
+            f"{out} holds no photos, or those of an earlier version; bring it up to date first: "
+            f"skyline-viz gallery DATASET --out {out}"
+        )
+    files = gone | {entry.name: entry.photo for entry in entries}
     done, undone = flags.find_names(flag, files), flags.find_names(unflag, files)
     if both := set(done) & set(undone):
         raise UsageError(f"{min(both)} cannot be both flagged and not.")

@@ -90,17 +90,14 @@ class _Page:
 
     def _photos(self) -> dict[str, Any]:
         flags = read_flags(self._gallery.folder)
-        photos = [
-            {
-                "id": place,
-                "name": printable(entry.name),
-                "about": about(entry),
-                "width": entry.width,
-                "height": entry.height,
-                "flag": asdict(flags.get(entry.name, Flag())),
-            }
-            for place, entry in self._entries.items()
-        ]
+        photos = []
+        for place, entry in self._entries.items():
+            verdict, details = about(entry)
+            flag = asdict(flags.get(entry.name, Flag()))
+            name = printable(entry.name)
+            photos.append(
+                {"id": place, "name": name, "verdict": verdict, "details": details, "flag": flag}
+            )
         return {
             "folder": printable(str(self._gallery.folder)),
             "longest": LONGEST,
@@ -122,16 +119,16 @@ class _Page:
         return told(asdict(flags.get(entry.name, Flag())))
 
 
-def about(entry: Entry) -> list[str]:
-    """What a photo's detection came to, in words, the most important ones first."""
-    words = []
+def about(entry: Entry) -> tuple[str, str]:
+    """What a photo's detection came to, in two lines: the verdict with its causes, and details."""
+    verdict, details = [], []
     if entry.difference is not None:
-        words.append(f"{entry.difference:.2f} px from {printable(entry.compared)}")
+        verdict.append(f"{entry.difference:.2f} px from {printable(entry.compared)}")
     if entry.a_err is not None:
-        words.append(f"A_err {entry.a_err:.2f} px")
-        words += entry.causes or ()
-        words += [f"wrong {entry.wrong}"] if entry.wrong else ["no column wrong"]
-    return [*words, f"margin {entry.margin:.2f}"]
+        verdict += [f"A_err {entry.a_err:.2f} px", *(entry.causes or ())]
+        details.append(f"wrong {entry.wrong}" if entry.wrong else "no column wrong")
+    details.append(f"margin {entry.margin:.2f} at {entry.unsure_column}")
+    return " · ".join(verdict), " · ".join(details)
 
 
 def _is_change(given: object) -> bool:

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+from PIL import Image
 
 from skyline_viz.arrays import U8
+from skyline_viz.files import replacing
 from skyline_viz.overlay import draw_overlay
-from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline
 
 SIZE = (640, 360)
@@ -30,15 +31,17 @@ def thumbnail(photo: U8, path: Skyline, truth: Skyline | None) -> U8:
     """
     height, width = photo.shape[:2]
     scale = min(SIZE[0] / width, SIZE[1] / height, 1.0)
-    size = max(round(width * scale), 1), max(round(height * scale), 1)
+    size = max(round(width * scale), 2), max(round(height * scale), 2)
     small = cv2.resize(photo, size, interpolation=cv2.INTER_AREA)
     lines = [None if line is None else _reduced(line, size[0], scale) for line in (path, truth)]
     return draw_overlay(small, *lines)
 
 
 def write_thumbnail(file: Path, photo: U8, path: Skyline, truth: Skyline | None) -> None:
-    """Write a photo's `thumbnail` as JPEG."""
-    write_photo(file, thumbnail(photo, path, truth), quality=_QUALITY)
+    """Write a photo's `thumbnail` as JPEG, with full colours: lines are two pixels wide."""
+    picture = Image.fromarray(thumbnail(photo, path, truth))
+    with replacing(file) as temporary:
+        picture.save(temporary, quality=_QUALITY, subsampling=0)
 
 
 def _reduced(line: Skyline, width: int, scale: float) -> Skyline:

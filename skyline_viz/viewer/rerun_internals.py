@@ -1,8 +1,8 @@
 """Every use of a part of rerun-sdk that is private, experimental or called unstable by its makers.
 
-Such a part may be gone with the next version. So nothing else of this project touches one; each is
-looked up here when it is first needed, and where it is missing, one sentence says what does not work.
-Everything else goes on working.
+Such a part may be gone with the next version. So nothing else of this project touches one. Each is
+looked up here when it is first needed; where it is missing, one sentence says what does not work,
+and everything else goes on.
 """
 
 from __future__ import annotations

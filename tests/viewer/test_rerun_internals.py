@@ -58,7 +58,7 @@ def test_what_is_missing_is_one_sentence(monkeypatch, part):
 
 def test_a_module_that_is_missing_is_one_sentence_too(monkeypatch):
     monkeypatch.setitem(sys.modules, "rerun_bindings", None)
-    with pytest.raises(ViewerError, match="has no rerun_bindings.flush"):
+    with pytest.raises(ViewerError, match=r"has no rerun_bindings\.flush"):
         rerun_internals.ORPHANS.take()
 
 

@@ -6,7 +6,7 @@
  */
 
 /** @typedef {{ reviewed: boolean, comment: string }} Flag */
-/** @typedef {{ id: string, name: string, about: string[], width: number, height: number, flag: Flag }} Photo */
+/** @typedef {{ id: string, name: string, verdict: string, details: string, flag: Flag }} Photo */
 /** @typedef {{ folder: string, longest: number, photos: Photo[] }} Photos */
 
 const AGAIN = 2_000; // milliseconds until the server is asked again that did not answer
@@ -62,7 +62,8 @@ class Card {
     this.#kept = photo.flag;
     find(copy, "h2", HTMLElement).textContent = photo.name;
     find(copy, "h2", HTMLElement).title = photo.name;
-    find(copy, ".about", HTMLElement).textContent = photo.about.join(" · ");
+    find(copy, ".verdict", HTMLElement).textContent = photo.verdict;
+    find(copy, ".details", HTMLElement).textContent = photo.details;
     const picture = find(copy, "img", HTMLImageElement);
     picture.src = `thumbnails/${photo.id}.jpg`;
     picture.alt = `${photo.name} with its path in magenta and its truth, if there is one, in turquoise`;
