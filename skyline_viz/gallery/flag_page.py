@@ -111,7 +111,7 @@ class _Page:
             return None
         try:
             given = json.loads(body)
-        except ValueError:  # of text, or of JSON
+        except (ValueError, RecursionError):  # of text, or of JSON
             given = None
         if not _is_change(given):
             return refused(HTTPStatus.BAD_REQUEST, "this is no change of a flag.")

@@ -166,4 +166,4 @@ def _named_by_file(word: str, files: Mapping[str, str]) -> list[str]:
         return exact
     if Path(word).name != word:  # somewhere else
         return []
-    return [name for name, file in files.items() if Path(file).name == word]
+    return [name for name, file in files.items() if file and Path(file).name == word]

@@ -96,13 +96,14 @@ class Card {
     return { comment: this.field.value, instead_of: this.#kept.comment };
   }
 
+  /** Whether the disk may hold something else than is shown: also while a change that was taken back is on its way. */
   get unsaved() {
-    return this.#next !== undefined;
+    return this.#sending || this.#next !== undefined;
   }
 
   /** Take over what is on the disk, but for what is being edited here. @param {Flag} flag */
   take(flag) {
-    if (this.#sending || this.unsaved) return;
+    if (this.unsaved) return;
     this.#show(flag);
   }
 
