@@ -178,6 +178,25 @@ def test_an_answer_that_was_lost_is_asked_for_again(window, gallery):
     assert read_flags(gallery) == {"hazy-1": Flag(comment="heard once")}
 
 
+def test_all_is_saved_only_when_nothing_is_on_its_way(window, gallery):
+    page = window()
+    held = []
+
+    def hold(route):
+        held.append(route)
+
+    page.route("**/flags/hazy-1", hold, times=1)
+    card(page, "hazy-1").locator("input").check()
+    card(page, "hazy-1").locator("input").uncheck()  # taken back, and yet on its way
+    with page.expect_response("**/flags/rover-2"):
+        card(page, "rover-2").locator("input").check()
+    page.evaluate("fetch('photos').then((answer) => answer.json())")  # the answer is dealt with
+    assert page.locator("#saving").get_attribute("data-state") == "saving"
+    held[0].continue_()
+    saved(page)
+    assert read_flags(gallery) == {"rover-2": Flag(True)}
+
+
 def test_what_cannot_be_saved_is_said(window, gallery):
     page = window()
     (gallery / "flags.json").write_text("damaged")
