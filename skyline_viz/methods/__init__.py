@@ -1,1 +1,1 @@
-"""The earlier methods, each in a file, behind the protocol of `methods.protocol`."""
+"""The earlier methods, each in a file, behind the protocol of `skyline_viz.method`."""

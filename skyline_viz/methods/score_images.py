@@ -114,7 +114,7 @@ class DenseScores(LearnedMethod):
         raise NotImplementedError
 
     def detect(self, photo: U8) -> Detection:
-        """See `protocol.Method.detect`."""
+        """See `method.Method.detect`."""
         check_photo(photo)
         seconds: dict[str, float] = {}
         with timed(seconds, "scores"):

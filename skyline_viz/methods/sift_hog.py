@@ -122,7 +122,7 @@ class SiftHog(LearnedMethod):
         return {"weights": (LENGTH,), "bias": (1,)}
 
     def detect(self, photo: U8) -> Detection:
-        """Find the skyline of a photo ``(H, W, 3)`` uint8 RGB; see `protocol.Method.detect`."""
+        """Find the skyline of a photo ``(H, W, 3)`` uint8 RGB; see `method.Method.detect`."""
         check_photo(photo)
         weights, bias = self.part("weights"), self.part("bias")
         seconds: dict[str, float] = {}

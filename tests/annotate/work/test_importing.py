@@ -189,7 +189,7 @@ def test_what_was_labelled_already_stays_and_the_rest_is_imported(document, fold
 
 
 def test_all_labels_of_a_file_are_kept_at_once(document, folder, monkeypatch):
-    import annotate.store as store  # noqa: PLC0415
+    import annotate.store.store as store  # noqa: PLC0415
 
     insert = store.insert
 
