@@ -10,11 +10,11 @@ from rerun.chunk import RrdReader
 import skyline_viz as sv
 from skyline_viz.config import FILTER_SIZES, TrainingConfig
 from skyline_viz.training import train
-from skyline_viz.viewer.process import PROGRAM
+from skyline_viz.viewer.rerun_internals import program
 
 
 def verify(path):
-    subprocess.run([PROGRAM, "rrd", "verify", path], check=True, capture_output=True)
+    subprocess.run([program(), "rrd", "verify", path], check=True, capture_output=True)
 
 
 class Read:
