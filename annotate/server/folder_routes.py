@@ -9,7 +9,7 @@ from fastapi import APIRouter, HTTPException, Query, Response
 from annotate.formats import FORMATS, archive
 from annotate.server.dependencies import Bench, TheLearner
 from annotate.server.messages import Legend, Nothing, PhotoList, Sheet, ShownPhoto, ShownProgress
-from annotate.store.store import Card
+from annotate.store.cards import Card
 from annotate.work.learning import Learning
 from annotate.work.workbench import Workbench
 

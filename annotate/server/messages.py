@@ -10,9 +10,9 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from annotate.engine.edits import ORIGINS, Stroke
 from annotate.formats import TITLES
+from annotate.store.cards import Card
 from annotate.store.labels import STATUSES, TAGS, Status
 from annotate.store.operations import Operation, Place, spoken
-from annotate.store.store import Card
 from annotate.work.images import BAND, STAGES, TILE
 from annotate.work.session import Session
 from annotate.work.workbench import Progress
