@@ -1,7 +1,8 @@
 .DEFAULT_GOAL := help
-.PHONY: help demo test check coverage bounds fuzz legs ci bench reliability pictures samples lock clean
+.PHONY: help demo test check docs coverage bounds fuzz legs ci bench reliability pictures samples lock clean
 
-SOURCES = pyproject.toml requirements.txt requirements-dev.txt tools/setup.sh
+SOURCES = pyproject.toml requirements.txt requirements-dev.txt tools/setup.sh tools/page/package-lock.json
+MKDOCS = NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict --quiet
 PYTEST = .venv/bin/python -m pytest
 # The tests of each module with a compiled loop.
 KERNEL_TESTS = $(shell grep -rl 'numba.njit' skyline_viz annotate --include='*.py' | \
@@ -16,11 +17,17 @@ demo: .venv/.installed-run  ## Find the skylines of the samples, or of PHOTOS=FO
 test: check  ## Everything that must hold: lint, types, doctests, tests.
 	$(PYTEST) -n auto --dist loadscope
 
-check: .venv/.installed-dev  ## Lint, types and import rules only.
+check: .venv/.installed-dev  ## Lint, types, direction of imports, the page, docs with all their links.
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
 	.venv/bin/lint-imports
+	PATH="$(CURDIR)/.venv/bin:$$PATH" npm run --prefix tools/page --silent check
+	$(MKDOCS)
+
+docs: .venv/.installed-dev  ## The docs as a site, to read without a network: site/index.html.
+	$(MKDOCS)
+	@echo "Open site/index.html in a browser."
 
 coverage: .venv/.installed-dev  ## All tests, with the lines and branches that they reach: at least 95 %.
 	.venv/bin/coverage erase
@@ -63,7 +70,7 @@ lock: .venv/.installed-dev  ## Renew the locked versions: what development needs
 	$(LOCK) --constraints requirements-dev.txt --output-file requirements.txt
 
 clean:  ## Remove the environments and what was built and shown.
-	rm -rf .venv .venv-* build dist skyline-demo skyline-gallery .coverage .coverage.*
+	rm -rf .venv .venv-* tools/page/node_modules build dist site skyline-demo skyline-gallery .coverage .coverage.*
 
 .venv/.installed-run: $(SOURCES)
 	tools/setup.sh run

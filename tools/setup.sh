@@ -91,11 +91,10 @@ if [ "$kind" = dev ] && [ "$(uname)" = Linux ] && ! browser >/dev/null 2>&1; the
         exit 1
     }
 fi
-# ... and the page's JavaScript under Node.
-if [ "$kind" = dev ] && ! command -v node >/dev/null 2>&1; then
-    apt_install nodejs || {
-        say "Node could not be installed; tests of the labelling page need it."
-        say "Install it (on Debian and Ubuntu: apt-get install nodejs), then run this again."
+# ... and check the page's JavaScript with tsc and eslint, under the locked set's Node.
+if [ "$kind" = dev ]; then
+    PATH="$PWD/.venv/bin:$PATH" npm ci --prefix tools/page --ignore-scripts --silent || {
+        say "npm could not install typescript and eslint, which check the labelling page; is its registry reachable?"
         exit 1
     }
 fi

@@ -16,8 +16,7 @@ from annotate.formats.documents import json_of
 from annotate.formats.importing import Task
 from annotate.formats.orphans import gone
 from annotate.store.contents import Contents
-from annotate.store.labels import MOST_PASSES, Label, check_annotator
-from annotate.store.operations import Status
+from annotate.store.labels import MOST_PASSES, Label, Status, check_annotator
 from skyline_viz.files import write_text
 from skyline_viz.skyline import Skyline, SkylineError
 

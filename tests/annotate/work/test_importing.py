@@ -8,25 +8,20 @@ import pytest
 from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
-from annotate.cli import main
 from annotate.formats import FormatError, import_labels
 from annotate.formats.whole import MOST_OPERATIONS
 from annotate.store.database import NAME
 from annotate.store.store import Store
 from annotate.work.importing import checked
 from testing.examples import examples
-from testing.labelling import served
-from tests.annotate.commands.test_cli import label, write_hills
+from testing.labelling import served, write_hills
+from testing.labels import POISON, label, poisoned, run
 
 SOUND = [
     {"kind": "open", "at": 1.0},
     {"kind": "anchor", "column": 3, "row": 5, "at": 2.0},
     {"kind": "status", "status": "accepted", "at": 3.0},
 ]
-
-
-def run(*words):
-    return main([str(word) for word in words])
 
 
 @pytest.fixture(scope="module")
@@ -295,33 +290,6 @@ def test_no_log_makes_a_label_that_cannot_be_read(document, tmp_path_factory, lo
 
 
 # A folder that was poisoned by an older version
-
-
-def poisoned(folder, kind="rotate", body='{"kind": "rotate", "degrees": 3}', row=11):
-    """Two labels, of which the second has an operation that nobody knows."""
-    label(folder, row=row)
-    with closing(sqlite3.connect(folder / NAME)) as database, database:
-        database.execute(
-            "INSERT INTO operations (label, at, kind, body) SELECT id, 5.0, ?, ? FROM labels"
-            " WHERE photo = (SELECT id FROM photos WHERE name = 'hill-1.png')",
-            (kind, body),
-        )
-    return folder
-
-
-POISON = [
-    ("rotate", '{"kind": "rotate", "degrees": 3}'),
-    ("status", "{}"),
-    ("status", '{"kind": "status", "status": ["a"]}'),
-    ("tag", '{"kind": "tag", "tag": ["a"], "on": true}'),
-    ("anchor", '{"kind": "anchor", "column": 5000, "row": 5}'),
-    ("anchor", "not JSON"),
-    ("anchor", '{"kind": "remove", "column": 5}'),
-    ("anchor", "[" * 2000),
-    ("anchor", b"\xff\xfe{"),
-    ("anchor", 7),
-    (b"\xff", "{}"),
-]
 
 
 @pytest.mark.parametrize(("kind", "body"), POISON)
