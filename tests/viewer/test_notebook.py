@@ -42,6 +42,7 @@ def sent(viewer, folder):
 
 @pytest.mark.filterwarnings("default::DeprecationWarning")  # of the widgets' library
 def test_the_cell_is_sent_the_detection(shown, tmp_path):
+    pytest.importorskip("rerun_notebook", reason="not run, the extra 'notebook' is not installed")
     photo = sv.read_photo(ROOT / "sample_data" / "images" / "rover-2.jpg")
     detection = sv.Detector().detect(photo)
     sv.show_detection(detection, detection.skyline, name="rover", height=300)
@@ -63,6 +64,8 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch):
 
 @pytest.mark.filterwarnings("default")  # of the libraries that run notebooks
 def test_the_example_notebook_runs():
+    pytest.importorskip("ipykernel", reason="not run, ipykernel is not installed")
+    pytest.importorskip("rerun_notebook", reason="not run, the extra 'notebook' is not installed")
     notebook = nbformat.read(ROOT / "docs" / "notebook.ipynb", as_version=4)
     assert not any(cell.get("outputs") for cell in notebook.cells)  # kept clean in the repository
     done = NotebookClient(notebook, timeout=120, resources={"metadata": {"path": ROOT / "docs"}})
