@@ -8,7 +8,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.config import FILTER_SIZES, DetectorConfig
 from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
-from testing.recordings import banks_of_all_sizes, scene
+from testing.recordings import banks_of_sizes, scene
 
 SETTINGS = ("canny_thresholds", "v", "delta", "link_weight")
 CONFIGS = {
@@ -28,7 +28,7 @@ def found():
 
 @pytest.fixture(scope="module")
 def banks():
-    return banks_of_all_sizes()
+    return banks_of_sizes()
 
 
 @pytest.mark.parametrize("config", CONFIGS.values(), ids=CONFIGS)

@@ -7,7 +7,7 @@ import skyline_viz as sv
 from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.sweep_recording import log_sweeps
-from testing.recordings import Read, banks_of_all_sizes, scene, verify
+from testing.recordings import Read, banks_of_sizes, scene, verify
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +18,7 @@ def found():
 
 @pytest.fixture(scope="module")
 def banks():
-    return banks_of_all_sizes()
+    return banks_of_sizes((3, 7, 11))
 
 
 @pytest.fixture(scope="module")
