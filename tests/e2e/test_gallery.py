@@ -81,6 +81,10 @@ def test_cards_tell_what_people_said_and_lead_inside(built):
             assert len(flags) >= 2
             assert all(one.get("disabled") for one in flags)  # they are set elsewhere
             assert not robot.widgets(role="TextInput", label_contains="comment")
+            change_flags(files.folder, {"hazy-1": Change(comment="said meanwhile")})
+            assert gallery.refresh()
+            robot.do("click", role="Button", label_contains="Refresh table")
+            until(lambda: says(robot, "said meanwhile"))
             robot.do("click", content_contains="hazy-1", role="Label")
             until(lambda: viewer.get_state().views)
             until(lambda: says(robot, "A_err 132.88") or says(robot, "132.88 px"))
