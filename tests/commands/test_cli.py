@@ -431,13 +431,15 @@ def test_evaluate_prints_and_writes(say, hills, tmp_path):
     assert files(tmp_path / "report") == ["histogram.png", "photos.csv", "summary.json"]
     summary = json.loads((tmp_path / "report" / "summary.json").read_text())
     assert (summary["dataset"], summary["layout"]) == ("hills", "plain")
-    assert summary["summary"]["photos"] == 4
-    assert summary["config"]["delta"] == sv.DetectorConfig().delta
+    assert summary["summary"]["default"]["photos"] == 4
+    settings = summary["settings"]["default"]
+    assert settings["config"]["delta"] == sv.DetectorConfig().delta
+    assert settings["bank"]["images"] == 40
     with (tmp_path / "report" / "photos.csv").open(newline="") as file:
         lines = list(csv.DictReader(file))
     assert [line["name"] for line in lines] == ["p0", "p1", "p2", "p3"]
     mean = np.mean([float(line["a_err"]) for line in lines])
-    assert summary["summary"]["mean"] == pytest.approx(mean, abs=1e-4)
+    assert summary["summary"]["default"]["mean"] == pytest.approx(mean, abs=1e-4)
     assert f"{mean:.2f} px" in out
     assert "p3" in out
 

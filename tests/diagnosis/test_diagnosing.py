@@ -16,8 +16,10 @@ from skyline_viz.diagnosis.causes import CAUSES
 from skyline_viz.diagnosis.cost_split import split_cost
 from skyline_viz.diagnosis.counterfactual import REPAIRED, Case
 from skyline_viz.diagnosis.diagnosing import diagnose, failing_runs
-from skyline_viz.diagnosis.report import Diagnosed, settings_to_try, try_remedies, write_csv
-from skyline_viz.diagnosis.report import _broken as broken
+from skyline_viz.diagnosis.record import Diagnosed
+from skyline_viz.diagnosis.remedies import _broken as broken
+from skyline_viz.diagnosis.remedies import settings_to_try, try_remedies
+from skyline_viz.diagnosis.report import write_csv
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.viewer import entities

@@ -13,9 +13,9 @@ import pytest
 import skyline_viz as sv
 from skyline_viz import detector
 from skyline_viz.cli import main
+from skyline_viz.diagnosis.data_set import diagnose_photo
 from skyline_viz.diagnosis.record import pack, unpack
-from skyline_viz.diagnosis.report import diagnose_item
-from skyline_viz.evaluation import cross_validation as evaluation
+from skyline_viz.evaluation.tasks import PhotoTask
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import FOLDER, Codec, Kept
 from testing.ends import started, until, write_set
@@ -56,10 +56,10 @@ def written(out):
     found = {}
     for path in sorted(path for path in out.rglob("*") if path.is_file()):
         text = path.read_bytes()
-        if path.name in ("photos.csv", "methods.csv"):
+        if path.name == "photos.csv":
             rows = list(csv.DictReader(path.read_text().splitlines()))
             text = [{key: row[key] for key in row if key != "seconds"} for row in rows]
-        elif path.name in ("summary.json", "methods.json"):
+        elif path.name == "summary.json":
             text = re.sub(r'"seconds": [\d.]+', "", path.read_text())
         elif path.name == "tables.md":
             text = path.read_text().split("Table VI")[0]
@@ -180,7 +180,7 @@ def test_a_diagnosis_comes_back_as_it_was(data):
     (item, *_) = sv.open_dataset(data)
     item = type(item)(item.name, item.photo_path, data.parent / "low.csv")
     sv.Skyline([110.0] * 160).write_csv(data.parent / "low.csv")
-    one = diagnose_item(None, evaluation.Test(item, sv.Detector()), remedies=True)
+    one = diagnose_photo(None, PhotoTask(item, sv.Detector()), remedies=True)
     assert one.diagnosis.segments
     assert one.remedies
     again = unpack(json.loads(json.dumps(pack(one))))
@@ -193,18 +193,18 @@ def test_a_diagnosis_comes_back_as_it_was(data):
 def test_a_photo_that_cannot_be_found_is_a_failure_with_its_own_words(tmp_path):
     codec = Codec(dict, dict)
     item = sv.DatasetItem("gone", tmp_path / "gone.png")
-    test = evaluation.Test(item, sv.Detector(), "digest")
+    photo_task = PhotoTask(item, sv.Detector(), "digest")
 
     def key(task):
         return str(task.item.photo_path.read_bytes())
 
-    (outcome,) = Kept(tmp_path / FOLDER).run(_photo_of, [test], key, codec)
+    (outcome,) = Kept(tmp_path / FOLDER).run(_photo_of, [photo_task], key, codec)
     assert isinstance(outcome, Failure)
     assert "gone.png cannot be read" in str(outcome)
 
 
-def _photo_of(test):
-    return {"rows": len(test.item.photo())}
+def _photo_of(task):
+    return {"rows": len(task.item.photo())}
 
 
 @pytest.mark.parametrize("ending", [signal.SIGKILL, signal.SIGTERM])
