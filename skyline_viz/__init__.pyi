@@ -41,8 +41,8 @@ from .path import shortest_path as shortest_path
 from .photo import PhotoError as PhotoError
 from .photo import read_photo as read_photo
 from .photo import write_photo as write_photo
-from .rendering import Scene as Scene
-from .rendering import render as render
+from .rendering.scenes import Scene as Scene
+from .rendering.scenes import render as render
 from .skyline import Skyline as Skyline
 from .skyline import SkylineError as SkylineError
 from .training import train as train

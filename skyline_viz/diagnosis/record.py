@@ -1,4 +1,4 @@
-"""A diagnosed photo, and as JSON that gives back the very same: it is kept while others are done."""
+"""A diagnosed photo; as JSON it gives back the very same, and is kept while others are done."""
 
 from __future__ import annotations
 

@@ -20,9 +20,7 @@ def test_each_method_has_a_summary(found):
 
 def test_printed_it_is_a_table_with_what_failed_below(found):
     lines = str(found).splitlines()
-    assert (
-        lines[0].split() == ["method", "mean", "st.", "dev.", "median", "min", "max", "<", "4", "px", "gross", "accuracy", "ms"]
-    )
+    assert lines[0].split()[:3] == ["method", "mean", "st."]
     assert lines[1].split()[:4] == ["default", "2.00", "1.00", "2.00"]
     assert lines[2].split() == ["<b>", *"-" * 9]
     assert lines[3:] == ["c & d: it is <gone>."]

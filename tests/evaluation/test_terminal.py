@@ -22,5 +22,6 @@ def test_the_tables_name_figures_and_photos():
 def test_a_line_for_each_method_also_where_nothing_was_found():
     table = drawn(methods_table({"[bold]": [result("a", 4.0)], "none": []}), width=110)
     lines = [line.split() for line in table.splitlines()]
-    assert lines[1] == ["[bold]", "4.00", "0.00", "4.00", "4.00", "4.00", "0/1", "0", "100.00%", "500"]
+    figures = ["4.00", "0.00", "4.00", "4.00", "4.00", "0/1", "0", "100.00%", "500"]
+    assert lines[1] == ["[bold]", *figures]
     assert lines[2] == ["none", *"-" * 9]
