@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Protocol, Self, TypeVar, runtime_checkable
 
@@ -53,11 +53,11 @@ class Learner(Method, Protocol):
     def family(self) -> str:
         """Methods of one family learn the same, and can share it."""
 
-    def fit(self, items: Sequence[Item], seed: int = 0) -> Self:
+    def fit(self, items: Iterable[Item], seed: int = 0) -> Self:
         """The method, trained on the photos of a data set; those without a truth are left out.
 
         Args:
-            items: Photos with truth.
+            items: Photos with truth, such as ``sv.open_dataset(folder)``.
             seed: Seed of all that is drawn.
 
         Raises:
@@ -120,9 +120,9 @@ class LearnedMethod:
         """What there is to learn from photos with truth."""
         raise NotImplementedError
 
-    def fit(self, items: Sequence[Item], seed: int = 0) -> Self:
+    def fit(self, items: Iterable[Item], seed: int = 0) -> Self:
         """See `Learner.fit`."""
-        return replace(self, model=self.learn(items, seed))
+        return replace(self, model=self.learn(tuple(items), seed))
 
     def sharing(self, other: LearnedMethod) -> Self:
         """See `Learner.sharing`."""
