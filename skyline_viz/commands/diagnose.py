@@ -2,27 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import tyro
-
-from skyline_viz import diagnosis, evaluation, running
-from skyline_viz.command_line.inputs import output_folder, with_truth
+from skyline_viz import diagnosis, evaluation
 from skyline_viz.command_line.messages import UsageError, counted, say, status_after, tell
-from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import (
-    BankFile,
-    Folder,
-    OptionalFolder,
-    Preset,
-    Switch,
-    make_detector,
-)
-from skyline_viz.command_line.sizes import MaxMegapixels, foresee
-from skyline_viz.command_line.truth_options import TruthOptions, Truths
-from skyline_viz.config import DetectorConfig
-from skyline_viz.system.memory import MAX_MEGAPIXELS, RECORDING
+from skyline_viz.command_line.on_truth import OnTruth
+from skyline_viz.command_line.settings import OptionalFolder, Switch, make_detector
+from skyline_viz.system.memory import RECORDING
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,11 +19,8 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Diagnose:
+class Diagnose(OnTruth):
     """Say why skylines went wrong, and prove it by changing one thing and searching again."""
-
-    dataset: tyro.conf.Positional[Folder]
-    """Folder of a data set with truths, in a published layout or plain."""
 
     photo: str = ""
     """Name of one photo, to print its diagnosis in full; --out gets NAME.json and NAME.md then."""
@@ -44,52 +28,19 @@ class Diagnose:
     tolerance: float = 0.0
     """Error up to which a column is right, in pixels; 0 takes 4, more for large photos."""
 
-    folds: int = 0
-    """Folds of a cross-validation, which trains on all folds but the diagnosed one; 0 is none."""
-
     no_remedies: Switch = False
     """Do not try what would help most: other settings, on all photos."""
 
     out: OptionalFolder = None
     """Folder for segments.csv and diagnosis.json; made where it is missing."""
 
-    methods: MethodOptions = field(default_factory=Methods)
-    """Another method than ours; with --folds it is trained on the other folds."""
-
-    truths: TruthOptions = field(default_factory=Truths)
-    """How to read masks that leave a choice."""
-
-    bank: BankFile = None
-    """Filter bank to use; the shipped one unless given."""
-
-    preset: Preset = "default"
-    """Where the settings below start from: the best that is known, or the published method."""
-
-    seed: int = 0
-    """Seed of the negative samples in a cross-validation."""
-
-    workers: int = 0
-    """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
-
-    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
-    """Largest photo that is read, in million pixels."""
-
-    config: DetectorConfig = field(default_factory=DetectorConfig)
-    """Single settings of the detector."""
-
     def run(self) -> int:
         """Diagnose all photos that have a truth; return the exit status."""
-        if self.folds and self.bank:
-            raise UsageError("--folds trains filter banks of its own; leave out --bank.")
         diagnosis.checked_tolerance(self.tolerance)
-        dataset = self.truths.open(self.dataset)
-        items = with_truth(dataset)
+        dataset, items = self.open()
         if self.photo and self.photo not in {item.name for item in items}:
             raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
-        if self.out:
-            output_folder(self.out, dataset)
-        workers = foresee(items, self.workers, RECORDING)
-        kept = running.Kept.within(self.out, "diagnose")
+        workers, kept = self.begin("diagnose", dataset, items, self.out, RECORDING)
         assigned = evaluation.assign(
             items, [self._method()], self.folds or None,
             seed=self.seed, workers=workers, kept=kept,

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import tyro
-
-from skyline_viz import evaluation, methods, running
-from skyline_viz.command_line.inputs import output_folder, with_truth
+from skyline_viz import evaluation, methods
 from skyline_viz.command_line.messages import (
-    UsageError,
     counted,
     listed,
     say,
@@ -18,18 +14,8 @@ from skyline_viz.command_line.messages import (
     tell,
     tell_drawn,
 )
-from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import (
-    BankFile,
-    Folder,
-    OptionalFolder,
-    Preset,
-    make_detector,
-)
-from skyline_viz.command_line.sizes import MaxMegapixels, foresee
-from skyline_viz.command_line.truth_options import TruthOptions, Truths
-from skyline_viz.config import DetectorConfig
-from skyline_viz.system.memory import MAX_MEGAPIXELS
+from skyline_viz.command_line.on_truth import OnTruth
+from skyline_viz.command_line.settings import OptionalFolder, make_detector
 
 if TYPE_CHECKING:
     from skyline_viz.evaluation import Evaluation
@@ -37,54 +23,16 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Evaluate:
+class Evaluate(OnTruth):
     """Compare detected skylines with the truth of a data set."""
-
-    dataset: tyro.conf.Positional[Folder]
-    """Folder of a data set, in a published layout or plain."""
-
-    folds: int = 0
-    """Folds of a cross-validation, which trains on all folds but the one it tests; 0 is none."""
 
     out: OptionalFolder = None
     """Folder for summary.json, photos.csv and histogram.png; made where it is missing."""
 
-    methods: MethodOptions = field(default_factory=Methods)
-    """Methods to compare; the detector with the settings below unless given."""
-
-    truths: TruthOptions = field(default_factory=Truths)
-    """How to read masks that leave a choice."""
-
-    bank: BankFile = None
-    """Filter bank to use; the shipped one unless given."""
-
-    preset: Preset = "default"
-    """Where the settings below start from: the best that is known, or the published method."""
-
-    seed: int = 0
-    """Seed of the negative samples in a cross-validation."""
-
-    workers: int = 0
-    """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
-
-    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
-    """Largest photo that is read, in million pixels."""
-
-    config: DetectorConfig = field(default_factory=DetectorConfig)
-    """Single settings of the detector."""
-
     def run(self) -> int:
         """Evaluate all photos that have a truth; return the exit status."""
-        if self.folds and self.bank:
-            raise UsageError("--folds trains filter banks of its own; leave out --bank.")
-        if self.seed < 0:
-            raise UsageError(f"a seed is 0 or more, not {self.seed}.")
-        dataset = self.truths.open(self.dataset)
-        items = with_truth(dataset)
-        if self.out:
-            output_folder(self.out, dataset)
-        workers = foresee(items, self.workers)
-        kept = running.Kept.within(self.out, "evaluate")
+        dataset, items = self.open()
+        workers, kept = self.begin("evaluate", dataset, items, self.out)
         chosen, how = self._methods(dataset.name)
         found = (
             evaluation.cross_validate(
