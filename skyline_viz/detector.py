@@ -77,10 +77,11 @@ class FilterDetection(Detection):
 class Detector:
     """Finds skylines.
 
-    >>> photo = np.full((40, 60, 3), 200, np.uint8)
-    >>> photo[25:] = 60
-    >>> set(Detector().detect(photo).skyline.rows.tolist())
-    {25.0}
+    Examples:
+        >>> photo = np.full((40, 60, 3), 200, np.uint8)
+        >>> photo[25:] = 60
+        >>> set(Detector().detect(photo).skyline.rows.tolist())
+        {25.0}
     """
 
     bank: FilterBank = field(default_factory=FilterBank.default)
@@ -111,13 +112,6 @@ class Detector:
     def fit(self, items: Iterable[Item], seed: int = 0) -> Detector:
         """The detector with filters that were learned from photos with truth.
 
-        >>> from skyline_viz.datasets.item import LoadedItem
-        >>> from skyline_viz.rendering import render
-        >>> scenes = [render("desert", seed, 160, 120) for seed in (1, 2)]
-        >>> items = [LoadedItem(one.name, one.photo, one.truth) for one in scenes]
-        >>> Detector().fit(items).bank.provenance.images
-        2
-
         Args:
             items: Photos, such as a data set; those without a truth are left out.
             seed: Seed of the negative samples.
@@ -127,6 +121,14 @@ class Detector:
 
         Raises:
             ValueError: No photo has a truth.
+
+        Examples:
+            >>> from skyline_viz.datasets.item import LoadedItem
+            >>> from skyline_viz.rendering import render
+            >>> scenes = [render("desert", seed, 160, 120) for seed in (1, 2)]
+            >>> items = [LoadedItem(one.name, one.photo, one.truth) for one in scenes]
+            >>> Detector().fit(items).bank.provenance.images
+            2
         """
         pairs = ((item.photo(), truth) for item in items if (truth := item.truth()) is not None)
         return replace(self, bank=train(pairs, seed=seed, config=self.training))

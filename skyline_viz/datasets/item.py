@@ -30,10 +30,11 @@ class Item(Protocol):
 class LoadedItem:
     """A photo and its truth in memory.
 
-    >>> from skyline_viz.rendering import render
-    >>> scene = render("desert", 1, 160, 120)
-    >>> LoadedItem(scene.name, scene.photo, scene.truth).photo().shape
-    (120, 160, 3)
+    Examples:
+        >>> from skyline_viz.rendering import render
+        >>> scene = render("desert", 1, 160, 120)
+        >>> LoadedItem(scene.name, scene.photo, scene.truth).photo().shape
+        (120, 160, 3)
     """
 
     name: str

@@ -31,16 +31,6 @@ def evaluate(
 ) -> Evaluation:
     """Detect the skylines of photos that have a truth, and compare.
 
-    >>> from skyline_viz.datasets.item import LoadedItem
-    >>> from skyline_viz.rendering import render
-    >>> scenes = [render("desert", seed, 160, 120) for seed in (1, 2)]
-    >>> items = [LoadedItem(one.name, one.photo, one.truth) for one in scenes]
-    >>> found = evaluate(items, ["default", "paper"])
-    >>> found.summaries["paper"].photos
-    2
-    >>> [one.name for one in found.results["default"]]
-    ['desert-1', 'desert-2']
-
     Args:
         items: Photos with truth, such as ``sv.open_dataset(folder)``.
         methods: One method or several: objects, or names and files as text.
@@ -52,6 +42,17 @@ def evaluate(
 
     Raises:
         MethodError: A method is unknown or has not been trained, or two have the same name.
+
+    Examples:
+        >>> from skyline_viz.datasets.item import LoadedItem
+        >>> from skyline_viz.rendering import render
+        >>> scenes = [render("desert", seed, 160, 120) for seed in (1, 2)]
+        >>> items = [LoadedItem(one.name, one.photo, one.truth) for one in scenes]
+        >>> found = evaluate(items, ["default", "paper"])
+        >>> found.summaries["paper"].photos
+        2
+        >>> [one.name for one in found.results["default"]]
+        ['desert-1', 'desert-2']
     """
     chosen = chosen_methods(methods)
     for one in chosen:
@@ -75,14 +76,6 @@ def cross_validate(
     tested as they are. What a family of methods learns, it learns once; a method that learns from
     sums, as our detector does, looks at each photo once, however many folds there are.
 
-    >>> from skyline_viz.datasets.item import LoadedItem
-    >>> from skyline_viz.rendering import render
-    >>> scenes = [render("desert", seed, 160, 120) for seed in (1, 2, 3)]
-    >>> items = [LoadedItem(one.name, one.photo, one.truth) for one in scenes]
-    >>> found = cross_validate(items, ["default", "edges"], folds=3)
-    >>> found.folds, list(found.summaries), found.failures
-    (3, ['default', 'edges'], ())
-
     Args:
         items: Photos with truth, such as ``sv.open_dataset(folder)``.
         methods: One method or several: objects, or names and files as text.
@@ -97,6 +90,15 @@ def cross_validate(
     Raises:
         MethodError: A method is unknown, or two have the same name.
         ValueError: There are too few photos for so many folds.
+
+    Examples:
+        >>> from skyline_viz.datasets.item import LoadedItem
+        >>> from skyline_viz.rendering import render
+        >>> scenes = [render("desert", seed, 160, 120) for seed in (1, 2, 3)]
+        >>> items = [LoadedItem(one.name, one.photo, one.truth) for one in scenes]
+        >>> found = cross_validate(items, ["default", "edges"], folds=3)
+        >>> found.folds, list(found.summaries), found.failures
+        (3, ['default', 'edges'], ())
     """
     chosen = chosen_methods(methods)
     assigned = assign(items, chosen, folds, seed=seed, workers=workers, kept=kept)

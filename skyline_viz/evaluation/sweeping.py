@@ -30,13 +30,6 @@ def sweep(
 
     Stages that the setting leaves as they are are computed once a photo.
 
-    >>> from skyline_viz.datasets.item import LoadedItem
-    >>> from skyline_viz.rendering import render
-    >>> scene = render("snow", 5, 240, 160)
-    >>> found = sweep([LoadedItem(scene.name, scene.photo, scene.truth)], "delta", [0, 4])
-    >>> found.summaries["delta=0"].mean > found.summaries["delta=4"].mean  # 0 is a level line
-    True
-
     Args:
         items: Photos with truth; one photo is a list of one.
         setting: Name of a setting of `DetectorConfig`.
@@ -50,6 +43,14 @@ def sweep(
     Raises:
         MethodError: The detector is unknown, or is another method than ours.
         ValueError: There is no such setting, or it does not take one of the values.
+
+    Examples:
+        >>> from skyline_viz.datasets.item import LoadedItem
+        >>> from skyline_viz.rendering import render
+        >>> scene = render("snow", 5, 240, 160)
+        >>> found = sweep([LoadedItem(scene.name, scene.photo, scene.truth)], "delta", [0, 4])
+        >>> found.summaries["delta=0"].mean > found.summaries["delta=4"].mean  # 0 is a level line
+        True
     """
     start = find_method(detector) if isinstance(detector, str) else detector
     if not isinstance(start, Detector):

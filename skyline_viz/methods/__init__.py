@@ -1,4 +1,4 @@
-"""The earlier methods, each in a file, behind the protocol of `methods.protocol`."""
+"""The earlier methods, each in a file, behind the protocol of `skyline_viz.method`."""
 
 import lazy_loader
 

@@ -1,13 +1,19 @@
-"""Results and their summary: figures counted by hand."""
+"""Results photo by photo, and their summary."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import skyline_viz as sv
 from skyline_viz.evaluation.results import PhotoResult, Summary, worst
-from testing.results import result
+
+
+def result(name="a", error=0.0, **changes):
+    """A result whose figures are made up."""
+    plain = PhotoResult.of(name, sv.Skyline([4]), sv.Skyline([4]), height=9, seconds=0.5)
+    return replace(plain, a_err=error, **changes)
 
 
 def test_a_result_by_hand():
