@@ -5,9 +5,8 @@ from itertools import groupby
 from pathlib import Path
 
 from benchmarks.table import A_ERR_HEADER, a_err_cells, markdown
-from skyline_viz import Detector, DetectorConfig, TrainingConfig, open_dataset
-from skyline_viz.evaluation.cross_validation import cross_validate, evaluate
-from skyline_viz.evaluation.results import Summary, worst
+from skyline_viz import Detector, DetectorConfig, Summary, cross_validate, evaluate, open_dataset
+from skyline_viz.evaluation.results import worst
 
 WITHOUT = {
     "default": {},
@@ -31,8 +30,9 @@ def cross_validated(web: Path) -> str:
         configs[name] = replace(DetectorConfig(), **changes)
     rows, notes = [], ""
     for name, config in configs.items():
-        results, failures = cross_validate(items, 2, config=config, training=_same_edges(config))
-        assert not failures, failures
+        found = cross_validate(items, Detector(config=config), 2)
+        assert not found.failures, found.failures
+        (results,) = found.results.values()
         rows.append([name, *a_err_cells(Summary.of(results))])
         if name == "default":
             bad = ", ".join(f"{result.name} {result.a_err:.2f}" for result in worst(results))
@@ -48,14 +48,11 @@ def rendered(samples: Path) -> str:
     items = open_dataset(samples).items
     rows = []
     for preset, config in (("`paper()`", DetectorConfig.paper()), ("default", DetectorConfig())):
-        results, failures = evaluate(items, Detector(config=config))
-        assert not failures, failures
+        found = evaluate(items, Detector(config=config))
+        assert not found.failures, found.failures
+        (results,) = found.results.values()
         kinds = groupby(results, key=lambda result: result.name.rsplit("-", 1)[0])
         cells = {kind: " ".join(f"{one.a_err:.1f}" for one in group) for kind, group in kinds}
         rows.append([preset, *cells.values()])
     table = markdown(["A_err in px", *cells], rows)
     return f"## The rendered samples, with the shipped filter bank\n\n{table}"
-
-
-def _same_edges(config: DetectorConfig) -> TrainingConfig:
-    return TrainingConfig(detector=config)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from skyline_viz import open_dataset
-from skyline_viz.evaluation.comparing import compare_methods
+from skyline_viz.evaluation.cross_validation import cross_validate
 from skyline_viz.evaluation.tables import table_1, table_5, table_6
 from skyline_viz.evaluation.tables_report import markdown
 from skyline_viz.evaluation.timing import time_methods
@@ -16,11 +16,11 @@ def compared(web: Path) -> str:
     """Tables I, V and VI over the photographs of a data set, two folds."""
     items = [item for item in open_dataset(web) if item.truth_path]
     methods = [make_method(name) for name in NAMES]
-    found = compare_methods(items, methods, folds=FOLDS, workers=0)
+    found = cross_validate(items, methods, FOLDS, workers=0)
     assert not found.failures, found.failures
-    timings = time_methods(found.fitted, items[0].photo())
+    timings = time_methods(found.methods, items[0].photo())
     measured = {web.name: found}
     page = markdown(
-        [table_1(measured, FOLDS), table_5(measured, FOLDS), table_6(timings, found.fitted)]
+        [table_1(measured, FOLDS), table_5(measured, FOLDS), table_6(timings, found.methods)]
     )
     return page.replace("## Table", "## The earlier methods: Table").rstrip()

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from benchmarks.table import markdown
 from skyline_viz import Detector, log_detection, new_recording, open_dataset, write_photo
-from skyline_viz.evaluation.cross_validation import warm_up
 from skyline_viz.rendering import sample_scenes
+from skyline_viz.running.warming import warm_up
 from skyline_viz.viewer.recording import Fidelity
 
 GALLERIES = (250, 1000)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TypedDict
@@ -13,7 +13,7 @@ import numpy.typing as npt
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.item import Item
 from skyline_viz.detection import Detection, timed
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.filter_bank import FilterBank
@@ -22,7 +22,7 @@ from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
 from skyline_viz.tensor import tensor_at
 from skyline_viz.terrain import BLOCK, terrain_above
-from skyline_viz.training import train
+from skyline_viz.training import GramMatrices, gather_item, solve, train
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -96,23 +96,59 @@ class Detector:
         return "paper" if self.config == DetectorConfig.paper() else "default"
 
     @property
-    def family(self) -> str:
-        """Detectors of one configuration learn the same filters."""
-        return f"filters of {self.config}"
+    def training(self) -> TrainingConfig:
+        """How it learns: with its own edges, and filters of the size and bins that its bank has."""
+        bank = self.bank
+        known = {"smoothness": bank.provenance.smoothness} if bank.provenance.images else {}
+        return TrainingConfig(bank.bins, bank.size, detector=self.config, **known)
 
-    def fit(self, items: Sequence[DatasetItem], seed: int = 0) -> Detector:
+    @property
+    def family(self) -> str:
+        """Detectors learn the same filters when they see the same edges and have such filters."""
+        training = self.training
+        learned = (training.bins, training.filter_size, training.smoothness)
+        return f"filters {learned} of edges {_edge_settings(self.config)}"
+
+    def fit(self, items: Iterable[Item], seed: int = 0) -> Detector:
         """The detector with filters that were learned from photos with truth.
 
         Args:
-            items: Photos; those without a truth are left out.
+            items: Photos, such as a data set; those without a truth are left out.
             seed: Seed of the negative samples.
+
+        Returns:
+            A detector with the same settings and another bank.
 
         Raises:
             ValueError: No photo has a truth.
+
+        Examples:
+            >>> from skyline_viz.datasets.item import LoadedItem
+            >>> from skyline_viz.rendering import render
+            >>> scenes = [render("desert", seed, 160, 120) for seed in (1, 2)]
+            >>> items = [LoadedItem(one.name, one.photo, one.truth) for one in scenes]
+            >>> Detector().fit(items).bank.provenance.images
+            2
         """
         pairs = ((item.photo(), truth) for item in items if (truth := item.truth()) is not None)
-        bank = train(pairs, seed=seed, config=TrainingConfig(detector=self.config))
-        return replace(self, bank=bank)
+        return replace(self, bank=train(pairs, seed=seed, config=self.training))
+
+    def gather(self, item: Item, seed: int = 0) -> GramMatrices:
+        """What there is to learn from one photo: Gram matrices, which add up.
+
+        Raises:
+            PhotoError: The photo cannot be read.
+            SkylineError: It has no truth, or one that does not fit.
+        """
+        return gather_item(self.training, seed, item)
+
+    def from_sums(self, sums: GramMatrices, seed: int = 0) -> Detector:
+        """The detector with the filters that Gram matrices of several photos give.
+
+        Raises:
+            ValueError: There is not a single sample in them.
+        """
+        return replace(self, bank=solve(sums, seed, self.training))
 
     def sharing(self, other: Detector) -> Detector:
         """This detector with the filters of another one."""

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Protocol, Self, runtime_checkable
+from typing import Protocol, Self, TypeVar, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import U8, Bool
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.item import Item
 from skyline_viz.detection import Detection
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.headed_npz import Stored
 
 Model = Mapping[str, npt.NDArray[np.generic]]
 """What a method has learned: arrays by name, as they are written to a file."""
+
+
+Sums = TypeVar("Sums")
+"""What photos add up to, for methods that learn from sums."""
 
 
 class MethodError(ValueError):
@@ -49,11 +53,11 @@ class Learner(Method, Protocol):
     def family(self) -> str:
         """Methods of one family learn the same, and can share it."""
 
-    def fit(self, items: Sequence[DatasetItem], seed: int = 0) -> Self:
+    def fit(self, items: Iterable[Item], seed: int = 0) -> Self:
         """The method, trained on the photos of a data set; those without a truth are left out.
 
         Args:
-            items: Photos with truth.
+            items: Photos with truth, such as ``sv.open_dataset(folder)``.
             seed: Seed of all that is drawn.
 
         Raises:
@@ -63,6 +67,38 @@ class Learner(Method, Protocol):
 
     def sharing(self, other: Self) -> Self:
         """This method with what another of its family has learned."""
+
+
+@runtime_checkable
+class AddingLearner(Learner, Protocol[Sums]):
+    """A method that learns from sums over photos, as our detector does from Gram matrices.
+
+    `fit` comes to the same as `from_sums` of what `gather` gives for all photos. So a
+    cross-validation looks at each photo once, and adds up what the other folds gave.
+    """
+
+    def gather(self, item: Item, seed: int = 0) -> Sums:
+        """What there is to learn from one photo; two of these add up with ``+``.
+
+        Args:
+            item: A photo with truth.
+            seed: Seed of all that is drawn.
+
+        Raises:
+            PhotoError: The photo cannot be read.
+            SkylineError: It has no truth, or one that does not fit.
+        """
+
+    def from_sums(self, sums: Sums, seed: int = 0) -> Self:
+        """The method, trained on the photos that were added up.
+
+        Args:
+            sums: Over all photos to learn from.
+            seed: The one that they were gathered with.
+
+        Raises:
+            ValueError: Nothing can be learned from them.
+        """
 
 
 @dataclass(frozen=True)
@@ -80,13 +116,13 @@ class LearnedMethod:
         """Methods of one family learn the same; here those whose names begin alike."""
         return self.name
 
-    def learn(self, items: Sequence[DatasetItem], seed: int) -> Model:
+    def learn(self, items: Sequence[Item], seed: int) -> Model:
         """What there is to learn from photos with truth."""
         raise NotImplementedError
 
-    def fit(self, items: Sequence[DatasetItem], seed: int = 0) -> Self:
+    def fit(self, items: Iterable[Item], seed: int = 0) -> Self:
         """See `Learner.fit`."""
-        return replace(self, model=self.learn(items, seed))
+        return replace(self, model=self.learn(tuple(items), seed))
 
     def sharing(self, other: LearnedMethod) -> Self:
         """See `Learner.sharing`."""
@@ -168,7 +204,7 @@ def _check_array(
         raise ValueError(f"its {name} holds what is no finite number")
 
 
-def shown_to_learners(items: Sequence[DatasetItem]) -> Iterator[tuple[U8, Skyline]]:
+def shown_to_learners(items: Sequence[Item]) -> Iterator[tuple[U8, Skyline]]:
     """Photos and truths of a data set, those without a truth left out, read one at a time.
 
     Raises:

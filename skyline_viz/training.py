@@ -24,6 +24,7 @@ from skyline_viz._version import __version__
 from skyline_viz.arrays import F64, U8, Int, check_photo
 from skyline_viz.bins import Bins
 from skyline_viz.config import TrainingConfig
+from skyline_viz.datasets.item import Item, photo_and_truth
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank, Provenance
 from skyline_viz.skyline import Skyline, SkylineError
@@ -149,6 +150,16 @@ def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> Gram
     patches = _patches(to_grey(photo), rows, columns, config.filter_size)
     sums, samples = _summed(np.column_stack([patches, targets]), index, config.bins)
     return GramMatrices(sums, samples, terrain_sums(photo, edges, truth), 1)
+
+
+def gather_item(config: TrainingConfig, seed: int, item: Item) -> GramMatrices:
+    """Gram matrices of a photo of a data set.
+
+    Raises:
+        PhotoError: The photo cannot be read.
+        SkylineError: It has no truth, or one that does not fit.
+    """
+    return gather(*photo_and_truth(item), seed, config)
 
 
 def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = "") -> FilterBank:

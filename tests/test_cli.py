@@ -31,10 +31,24 @@ def test_the_version(say):
     assert say("--version") == (0, f"skyline-viz {sv.__version__}\n", "")
 
 
+COMMANDS = [
+    "detect",
+    "inspect",
+    "gallery",
+    "train",
+    "evaluate",
+    "tables",
+    "diagnose",
+    "render",
+    "demo",
+]
+
+
 def test_help_imports_nothing_heavy():
     code = (
-        "import sys; from skyline_viz.cli import main; main(['detect', '--help']);"
-        "heavy = {'cv2', 'numba', 'matplotlib', 'rich', 'scipy', 'skyline_viz.detector'};"
+        "import sys; from skyline_viz.cli import main;"
+        f"[main([command, '--help']) for command in {COMMANDS}];"
+        "heavy = {'cv2', 'numba', 'matplotlib', 'rich', 'rerun', 'scipy', 'skyline_viz.detector'};"
         "sys.exit(f'{heavy & set(sys.modules)}' if heavy & set(sys.modules) else 0)"
     )
     done = subprocess.run(

@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
-import numpy as np
-
 from annotate.store.identity import Photo
-from annotate.store.labels import Label
 from annotate.store.opened import read_whole
+from annotate.store.store import Store
 from annotate.work.workbench import Workbench
-from skyline_viz.config import TrainingConfig
+from skyline_viz.arrays import U8
 from skyline_viz.detector import Detector
-from skyline_viz.evaluation.metrics import a_err
-from skyline_viz.filter_bank import FilterBank
-from skyline_viz.training import GramMatrices, gather, solve
+from skyline_viz.evaluation.cross_validation import cross_validate, evaluate
+from skyline_viz.evaluation.evaluated import Evaluation
+from skyline_viz.evaluation.training_runs import train_on
+from skyline_viz.skyline import Skyline
 
 LEAST = 10
 """Accepted photos that learning needs at least."""
-
-_SEED = 0
 
 
 @dataclass(frozen=True)
@@ -92,33 +88,47 @@ class Learner:
                 f"the method {proposes.name} proposes here, and only our own learns on the way."
             )
             return Learning(state="failed", detail=detail, changed=0)
-        config = TrainingConfig(detector=proposes.config)
-        halves = [GramMatrices.empty(config), GramMatrices.empty(config)]
-        for number, label in enumerate(labels):
-            pixels = read_whole(bench.store, photos[label.digest])
-            assert label.skyline is not None
-            halves[number % 2] += gather(pixels, label.skyline, _SEED, config)
-        name = bench.store.folder.resolve().name
-        before = self._error(labels, photos, [proposes] * 2)
-        learned = [Detector(solve(one, _SEED, config, name), config.detector) for one in halves]
-        after = self._error(labels, photos, learned[::-1])  # each on the photos of the other
+        items = [
+            _Accepted(f"{number:09}", bench.store, photos[one.digest], one.skyline)
+            for number, one in enumerate(labels)
+            if one.skyline
+        ]
+        before = _error(evaluate(items, proposes))
+        after = _error(cross_validate(items, proposes, folds=2))
         says = f"A_err {after:.2f} px on accepted photos it has not seen, now {before:.2f} px"
         if after >= before:
             detail = f"the bank stays as it is: one learned from {len(labels)} photos has {says}."
             return Learning(state="done", detail=detail, changed=0)
-        bank: FilterBank = solve(halves[0] + halves[1], _SEED, config, name)
-        changed = bench.propose_again(Detector(bank, config.detector))
+        name = bench.store.folder.resolve().name
+        bank, _ = train_on(items, proposes.training, dataset=name)
+        changed = bench.propose_again(replace(proposes, bank=bank))
         detail = f"learned from {len(labels)} photos: {says}; {changed} photos have new proposals."
         return Learning(state="done", detail=detail, changed=changed)
 
-    def _error(
-        self, labels: Sequence[Label], photos: dict[str, Photo], detectors: Sequence[Detector]
-    ) -> float:
-        """Mean A_err of the accepted photos, each by the detector of its half."""
-        errors = []
-        for number, label in enumerate(labels):
-            pixels = read_whole(self._bench.store, photos[label.digest])
-            assert label.skyline is not None
-            found = detectors[number % 2].detect(pixels).skyline
-            errors.append(a_err(found, label.skyline))
-        return float(np.mean(errors))
+
+@dataclass(frozen=True)
+class _Accepted:
+    """An accepted photo as an item to learn from: its pixels are read each time."""
+
+    name: str
+    store: Store
+    file: Photo
+    skyline: Skyline
+
+    def photo(self) -> U8:
+        return read_whole(self.store, self.file)
+
+    def truth(self) -> Skyline:
+        return self.skyline
+
+
+def _error(found: Evaluation) -> float:
+    """Mean A_err of the only method.
+
+    Raises:
+        ValueError: A photo failed.
+    """
+    if found.failures:
+        raise ValueError(found.failures[0].reason)
+    (summary,) = found.summaries.values()
+    return summary.mean

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import tyro
 
+from skyline_viz import rendering
 from skyline_viz.command_line.inputs import collect, output_folder
 from skyline_viz.command_line.messages import SOME_FAILED, say, status_after, tell
 from skyline_viz.command_line.settings import Folder, make_detector
@@ -70,9 +71,7 @@ class Demo:
                     return folder
             except DatasetError:
                 continue
-        from skyline_viz.rendering import SAMPLES, sample_scenes  # noqa: PLC0415
-
         folder = output_folder(self.out, ()) / "sample_data"
         say(f"rendering sample photos into {folder}.")
-        list(write_with_progress(sample_scenes(), folder, len(SAMPLES)))
+        list(write_with_progress(rendering.sample_scenes(), folder, len(rendering.SAMPLES)))
         return folder

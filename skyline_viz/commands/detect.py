@@ -106,7 +106,7 @@ class _Found:
 
 
 def _detect(options: Detect, detector: Method, photo: Input) -> _Found:
-    from skyline_viz.evaluation.cross_validation import warm_up  # noqa: PLC0415
+    from skyline_viz.running.warming import warm_up  # noqa: PLC0415
 
     pixels = photo.item.photo()
     warm_up()

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
+from skyline_viz import evaluation
 from skyline_viz.command_line.inputs import Input, collect, with_truth
 from skyline_viz.command_line.messages import (
     GOOD,
@@ -254,7 +255,7 @@ class Inspect:
         fidelity: Fidelity,
     ) -> Contents:
         """Log a photo of `together` ones, and say what the recording now holds."""
-        from skyline_viz.evaluation.cross_validation import warm_up  # noqa: PLC0415
+        from skyline_viz.running.warming import warm_up  # noqa: PLC0415
         from skyline_viz.viewer.bank_recording import log_path_bins  # noqa: PLC0415
         from skyline_viz.viewer.blueprints import Contents  # noqa: PLC0415
         from skyline_viz.viewer.comparison import log_comparison  # noqa: PLC0415
@@ -302,8 +303,6 @@ class Inspect:
         self, one: Input, detector: Detector, failures: list[Failure]
     ) -> list[FilterBank]:
         """Filter banks of all sizes, learned from a data set without the photo."""
-        from skyline_viz.evaluation.cross_validation import train_sizes  # noqa: PLC0415
-
         assert self.sweep_training is not None
         dataset = self.truths.open(self.sweep_training)
         own = one.item.photo_path.resolve()
@@ -311,7 +310,7 @@ class Inspect:
         if not others:
             raise UsageError(f"{dataset.name} holds no photo with a truth but {one.name} itself.")
         training = TrainingConfig(bins=detector.bank.bins, detector=self.config)
-        banks, failed = train_sizes(others, training, dataset=dataset.name)
+        banks, failed = evaluation.train_sizes(others, training, dataset=dataset.name)
         failures += failed
         return banks
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
+from skyline_viz import rendering
 from skyline_viz.command_line.inputs import output_folder
 from skyline_viz.command_line.messages import GOOD, UsageError, counted, tell
 from skyline_viz.command_line.settings import Folder
@@ -47,16 +48,14 @@ class Render:
         if self.count < 1:
             raise UsageError(f"--count is 1 or more, not {self.count}.")
         output_folder(self.out, ())
-        from skyline_viz.rendering import SAMPLES, render, sample_scenes  # noqa: PLC0415
-
         seeds = range(self.seed, self.seed + self.count)
         kind: Any = self.kind  # which the renderer checks
         scenes = (
-            sample_scenes()
+            rendering.sample_scenes()
             if kind is None
-            else (render(kind, seed, self.width, self.height) for seed in seeds)
+            else (rendering.render(kind, seed, self.width, self.height) for seed in seeds)
         )
-        total = len(SAMPLES) if kind is None else self.count
+        total = len(rendering.SAMPLES) if kind is None else self.count
         count = 0
         for path in write_with_progress(scenes, self.out, total):
             tell(str(path))
@@ -73,9 +72,7 @@ def write_with_progress(scenes: Iterable[Scene], folder: Path, total: int) -> It
         folder: Where to.
         total: Number of scenes, for the progress bar.
     """
-    from skyline_viz.rendering import write_scenes  # noqa: PLC0415
-
     with ProgressBar(total, "scenes") as bar:
-        for path in write_scenes(scenes, folder):
+        for path in rendering.write_scenes(scenes, folder):
             bar.advance()
             yield path

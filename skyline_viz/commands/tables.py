@@ -9,21 +9,29 @@ from typing import TYPE_CHECKING, Annotated, get_args
 
 import tyro
 
+from skyline_viz import evaluation, methods, running
 from skyline_viz.command_line.inputs import output_folder, with_truth
-from skyline_viz.command_line.messages import SOME_FAILED, UsageError, say, status_after, tell
+from skyline_viz.command_line.messages import (
+    SOME_FAILED,
+    UsageError,
+    counted,
+    listed,
+    say,
+    status_after,
+    tell,
+)
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import Folder, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
+from skyline_viz.files import write_text
 from skyline_viz.methods.names import MethodName
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
-    from skyline_viz.datasets.layouts import DatasetItem
-    from skyline_viz.evaluation.comparing import Compared
-    from skyline_viz.evaluation.tables import Table
-    from skyline_viz.method import Method
-    from skyline_viz.running.resume import Kept
+    from skyline_viz.datasets import DatasetItem
+    from skyline_viz.evaluation import Evaluation, Table
+    from skyline_viz.running import Kept
 
 
 @dataclass(frozen=True)
@@ -38,7 +46,7 @@ class Tables:
     """Folders of data sets with truths, in a published layout or plain."""
 
     out: Folder = Path("skyline-tables")
-    """Folder for tables.md, tables.tex, methods.csv and histograms; made where it is missing."""
+    """Folder for tables.md, tables.tex and the files of `evaluate`; made where it is missing."""
 
     methods: MethodOptions = field(default_factory=Methods)
     """The methods; all that are known unless given."""
@@ -63,17 +71,14 @@ class Tables:
 
     def run(self) -> int:
         """Measure and write; return the exit status."""
-        from skyline_viz.methods.registry import make_method  # noqa: PLC0415
-        from skyline_viz.running.resume import Kept  # noqa: PLC0415
-
         if not self.datasets:
             raise UsageError("which data sets? Name at least one folder.")
         if self.folds < 2:
             raise UsageError(f"a cross-validation has 2 folds or more, not {self.folds}.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
-        methods = self.methods.chosen(to_train=True) or [
-            make_method(name) for name in get_args(MethodName)
+        chosen = self.methods.chosen(to_train=True) or [
+            methods.make_method(name) for name in get_args(MethodName)
         ]
         sets = {}
         for folder in self.datasets:
@@ -83,77 +88,61 @@ class Tables:
             output_folder(self.out, dataset)
             sets[dataset.name] = with_truth(dataset)
         workers = foresee([item for items in sets.values() for item in items], self.workers)
-        kept = Kept.within(self.out, "tables")
-        measured = self._measure(sets, methods, workers, kept)
-        failures = [failure for one in measured.values() for failure in one.failures]
-        if not any(one.results for one in measured.values()):
-            return status_after(failures) or SOME_FAILED
-        self._write_results(measured)  # first: it took long, and what follows may fail
-        self._write_tables(self._tables(measured, workers, kept))
-        kept.remove()
-        return status_after(failures)
-
-    def _measure(
-        self,
-        sets: Mapping[str, Sequence[DatasetItem]],
-        methods: Sequence[Method],
-        workers: int,
-        kept: Kept,
-    ) -> dict[str, Compared]:
-        from skyline_viz.evaluation.comparing import compare_methods  # noqa: PLC0415
-
+        kept = running.Kept.within(self.out, "tables")
         measured = {
-            name: compare_methods(
-                items, methods, folds=self.folds, seed=self.seed, workers=workers, kept=kept
+            name: evaluation.cross_validate(
+                items, chosen, self.folds, seed=self.seed, workers=workers, kept=kept
             )
             for name, items in sets.items()
         }
         if done := kept.said("detection"):
             say(done)
-        return measured
+        failures = [failure for one in measured.values() for failure in one.failures]
+        if not any(found for one in measured.values() for found in one.results.values()):
+            return status_after(failures) or SOME_FAILED
+        self._write_results(measured)  # first: it took long, and what follows may fail
+        self._write_tables(self._tables(sets, measured, workers, kept))
+        kept.remove()
+        return status_after(failures)
 
-    def _tables(self, measured: dict[str, Compared], workers: int, kept: Kept) -> list[Table]:
-        from skyline_viz.evaluation import tables  # noqa: PLC0415
-        from skyline_viz.evaluation.timing import time_methods  # noqa: PLC0415
-
-        sets = {name: compared.items for name, compared in measured.items()}
+    def _tables(
+        self,
+        sets: Mapping[str, Sequence[DatasetItem]],
+        measured: Mapping[str, Evaluation],
+        workers: int,
+        kept: Kept,
+    ) -> list[Table]:
         studies = []
         if not self.no_studies:
             say("filter sizes and training sets ...")
             studies = [
-                tables.table_3(sets, self.folds, self.seed, workers, kept),
-                tables.table_4(sets, self.seed, workers, kept),
+                evaluation.table_3(sets, self.folds, self.seed, workers, kept),
+                evaluation.table_4(sets, self.seed, workers, kept),
             ]
         say("times ...")
-        compared = max(measured.values(), key=lambda one: len(one.fitted))
-        timings = time_methods(compared.fitted, compared.items[0].photo())
+        name, found = max(measured.items(), key=lambda one: len(one[1].methods))
+        tested = {one.name for results in found.results.values() for one in results}
+        photo = next(item for item in sets[name] if item.name in tested).photo()
+        timings = evaluation.time_methods(found.methods, photo)
         return [
-            tables.table_1(measured, self.folds),
-            tables.table_2(measured),
+            evaluation.table_1(measured, self.folds),
+            evaluation.table_2(measured),
             *studies,
-            tables.table_5(measured, self.folds),
-            tables.table_6(timings, compared.fitted),
+            evaluation.table_5(measured, self.folds),
+            evaluation.table_6(timings, found.methods),
         ]
 
-    def _write_results(self, measured: dict[str, Compared]) -> None:
-        from skyline_viz.evaluation.report import write_comparison, write_histogram  # noqa: PLC0415
-
-        for name, compared in measured.items():
+    def _write_results(self, measured: Mapping[str, Evaluation]) -> None:
+        for name, found in measured.items():
             folder = self.out / name if len(measured) > 1 else self.out
             folder.mkdir(exist_ok=True)
-            about = {"dataset": name, "folds": self.folds, "seed": self.seed}
-            write_comparison(folder, compared.results, about)
-            for method in ("default", "paper"):
-                if results := compared.results.get(method):
-                    title = f"{name}: {len(results)} photos, {method}"
-                    write_histogram(folder / f"histogram-{method}.png", results, title)
+            tested = max(len(results) for results in found.results.values())
+            title = f"{name}: {counted(tested, 'photo')}, {self.folds}-fold cross-validation"
+            evaluation.write_evaluation(folder, found, about={"dataset": name}, title=title)
 
     def _write_tables(self, tables: list[Table]) -> None:
-        from skyline_viz.evaluation.tables_report import latex, markdown  # noqa: PLC0415
-        from skyline_viz.files import write_text  # noqa: PLC0415
-
-        page = markdown(tables)
+        page = evaluation.markdown(tables)
         write_text(self.out / "tables.md", page)
-        write_text(self.out / "tables.tex", latex(tables))
+        write_text(self.out / "tables.tex", evaluation.latex(tables))
         tell(*page.splitlines())
-        tell(f"tables.md, tables.tex, methods.csv and histograms in {self.out}")
+        tell(f"tables.md, tables.tex, {listed(evaluation.FILES)} in {self.out}")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
+from skyline_viz import evaluation
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import GOOD, UsageError, counted, status_after, tell
 from skyline_viz.command_line.settings import Folder, Preset
@@ -77,9 +78,7 @@ class Train:
             return self._train_method(dataset.name, items)
         if self.pretrained is not None:
             raise UsageError("--pretrained is for FCNs and SegNet, not for our filter bank.")
-        from skyline_viz.evaluation.cross_validation import train_on  # noqa: PLC0415
-
-        bank, failures = train_on(
+        bank, failures = evaluation.train_on(
             items,
             self.training,
             seed=self.seed,

@@ -1,4 +1,14 @@
 from .causes import CAUSES as CAUSES
 from .causes import Cause as Cause
+from .data_set import diagnose_photos as diagnose_photos
 from .diagnosing import Diagnosis as Diagnosis
+from .diagnosing import checked_tolerance as checked_tolerance
 from .diagnosing import diagnose as diagnose
+from .record import Diagnosed as Diagnosed
+from .remedies import Remedy as Remedy
+from .report import in_full as in_full
+from .report import remedies_table as remedies_table
+from .report import table as table
+from .report import write_csv as write_csv
+from .report import write_json as write_json
+from .report import write_photo as write_photo

@@ -1,14 +1,27 @@
-"""A diagnosed photo as JSON that gives back the very same, to be kept while others are done."""
+"""A diagnosed photo; as JSON it gives back the very same, and is kept while others are done."""
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 
 from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment, Trial
-from skyline_viz.diagnosis.report import Diagnosed, Remedy
+from skyline_viz.diagnosis.remedies import Remedy
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosed:
+    """A photo and its diagnosis."""
+
+    name: str
+    a_err: float
+    """In pixels."""
+
+    diagnosis: Diagnosis
+    remedies: tuple[Remedy, ...]
+    """Other settings, tried on the photo; nothing unless asked for."""
 
 
 def pack(one: Diagnosed) -> dict[str, Any]:

@@ -1,331 +1,194 @@
-"""How good a detector is on a data set: a filter bank put to the test, and cross-validation."""
+"""How good methods are on a data set: tested as they are, or cross-validated.
+
+There is one way to do it, whatever the methods and whoever asks: `assign` says which method each
+photo is tested with, having trained one for each fold; then photos are worked on one by one.
+"""
+
+from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import cache, partial, reduce
-from operator import add
-from typing import Any
+from dataclasses import dataclass
 
-import numpy as np
+from skyline_viz.datasets.item import Item
+from skyline_viz.evaluation.evaluated import Evaluation
+from skyline_viz.evaluation.folds import Folds
+from skyline_viz.evaluation.tasks import PhotoTask, compare_photos, photo_tasks, told_once
+from skyline_viz.method import LearnedMethod, Method, MethodError
+from skyline_viz.methods.registry import find_method
+from skyline_viz.running.batch import Failure
+from skyline_viz.running.resume import Kept
 
-from skyline_viz.config import FILTER_SIZES, DetectorConfig, TrainingConfig
-from skyline_viz.datasets.layouts import DatasetItem
-from skyline_viz.detector import Detector
-from skyline_viz.evaluation.results import PhotoResult
-from skyline_viz.filter_bank import FilterBank, FilterBankError
-from skyline_viz.method import Method
-from skyline_viz.running.batch import Failure, run
-from skyline_viz.running.resume import Codec, Kept, digest_of, digest_of_item, digest_of_method
-from skyline_viz.skyline import Skyline, SkylineError
-from skyline_viz.training import GramMatrices, gather, solve
+Methods = str | Method | Sequence[str | Method]
+"""One method or several, each as an object or as `find_method` takes it."""
 
 
 def evaluate(
-    items: Sequence[DatasetItem],
-    detector: Detector,
+    items: Iterable[Item],
+    methods: Methods = "default",
     *,
     workers: int = 1,
     kept: Kept | None = None,
-) -> tuple[list[PhotoResult], list[Failure]]:
+) -> Evaluation:
     """Detect the skylines of photos that have a truth, and compare.
 
     Args:
-        items: Photos with truth.
-        detector: The detector.
-        workers: Number of processes, see `batch.run`.
+        items: Photos with truth, such as ``sv.open_dataset(folder)``.
+        methods: One method or several: objects, or names and files as text.
+        workers: Number of processes; 1 works in this one, 0 chooses by the number of photos.
         kept: Where finished photos are kept; nowhere unless given.
 
     Returns:
         The results in the order of `items`, and the photos that failed.
+
+    Raises:
+        MethodError: A method is unknown or has not been trained, or two have the same name.
+
+    Examples:
+        >>> from skyline_viz.datasets.item import LoadedItem
+        >>> from skyline_viz.rendering import render
+        >>> scenes = [render("desert", seed, 160, 120) for seed in (1, 2)]
+        >>> items = [LoadedItem(one.name, one.photo, one.truth) for one in scenes]
+        >>> found = evaluate(items, ["default", "paper"])
+        >>> found.summaries["paper"].photos
+        2
+        >>> [one.name for one in found.results["default"]]
+        ['desert-1', 'desert-2']
     """
-    tests = tests_of(items, {item.name: detector for item in items}, kept)
-    return run_tests(tests, workers, kept)
+    chosen = chosen_methods(methods)
+    for one in chosen:
+        if isinstance(one, LearnedMethod):
+            one.require_trained()
+    return _tested(assign(items, chosen, kept=kept), workers, kept)
 
 
 def cross_validate(
-    items: Sequence[DatasetItem],
-    folds: int,
+    items: Iterable[Item],
+    methods: Methods = "default",
+    folds: int = 2,
     *,
-    config: DetectorConfig | None = None,
-    training: TrainingConfig | None = None,
     seed: int = 0,
     workers: int = 1,
     kept: Kept | None = None,
-) -> tuple[list[PhotoResult], list[Failure]]:
-    """Test each photo with a filter bank that was trained on the photos of all other folds.
+) -> Evaluation:
+    """Test each photo with what was learned from the photos of all other folds.
 
-    Photo ``i`` in the order of names is in fold ``i % folds``. Each photo is looked at once for
-    training: Gram matrices add up, so those of the other folds are summed, whichever they are.
+    Photo ``i`` in the order of names is in fold ``i % folds``. Methods that learn nothing are
+    tested as they are. What a family of methods learns, it learns once; a method that learns from
+    sums, as our detector does, looks at each photo once, however many folds there are.
 
     Args:
-        items: Photos with truth.
+        items: Photos with truth, such as ``sv.open_dataset(folder)``.
+        methods: One method or several: objects, or names and files as text.
         folds: Number of folds, from 2 to the number of photos.
-        config: How to detect.
-        training: How to train; unless given, with the edges of `config`.
-        seed: Seed of the negative samples.
-        workers: Number of processes, see `batch.run`.
-        kept: Where finished photos and trained banks are kept; nowhere unless given.
+        seed: Seed of all that is drawn.
+        workers: Number of processes; 1 works in this one, 0 chooses by the number of photos.
+        kept: Where finished photos and trained methods are kept; nowhere unless given.
 
     Returns:
-        The results by name, and the photos that failed.
+        The results by name, and what failed.
 
     Raises:
+        MethodError: A method is unknown, or two have the same name.
         ValueError: There are too few photos for so many folds.
+
+    Examples:
+        >>> from skyline_viz.datasets.item import LoadedItem
+        >>> from skyline_viz.rendering import render
+        >>> scenes = [render("desert", seed, 160, 120) for seed in (1, 2, 3)]
+        >>> items = [LoadedItem(one.name, one.photo, one.truth) for one in scenes]
+        >>> found = cross_validate(items, ["default", "edges"], folds=3)
+        >>> found.folds, list(found.summaries), found.failures
+        (3, ['default', 'edges'], ())
     """
-    detectors, failures = fold_detectors(
-        items, folds, config=config, training=training, seed=seed, workers=workers, kept=kept
-    )
-    tests = sorted(tests_of(items, detectors, kept), key=lambda test: test.name)
-    results, more = run_tests(tests, workers, kept)
-    return results, failures + more
-
-
-def fold_detectors(
-    items: Sequence[DatasetItem],
-    folds: int,
-    *,
-    config: DetectorConfig | None = None,
-    training: TrainingConfig | None = None,
-    seed: int = 0,
-    workers: int = 1,
-    kept: Kept | None = None,
-) -> tuple[dict[str, Detector], list[Failure]]:
-    """For each photo a detector that was trained on the photos of all other folds.
-
-    Takes what `cross_validate` takes.
-
-    Returns:
-        The detectors by the name of the photo, and the photos that failed.
-
-    Raises:
-        ValueError: There are too few photos for so many folds.
-    """
-    items = sorted(items, key=lambda item: item.name)
-    if not 2 <= folds <= len(items):
-        raise ValueError(f"folds is a number from 2 to the {len(items)} photos, not {folds}")
-    config = config or DetectorConfig()
-    training = training or TrainingConfig(detector=config)
-    key = ""
-    if kept and kept.folder:
-        contents = [_content(item) for item in items]
-        key = digest_of("folds", folds, seed, training, contents)
-        if known := _kept_banks(kept, key, folds):
-            banks, of, failed = known
-            return {name: Detector(banks[fold], config) for name, fold in of.items()}, failed
-    sums = [GramMatrices.empty(training)] * folds
-    usable: list[tuple[int, DatasetItem]] = []
-    failures: list[Failure] = []
-    gathered = run(partial(gather_item, training, seed), items, workers=workers, title="training")
-    for index, outcome in enumerate(gathered):
-        if isinstance(outcome, Failure):
-            failures.append(outcome)
-        else:
-            sums[index % folds] += outcome
-            usable.append((index % folds, items[index]))
-    detectors: dict[str, Detector] = {}
-    for fold in range(folds):
-        others = reduce(add, (gram for other, gram in enumerate(sums) if other != fold))
-        detector = Detector(solve(others, seed, training), config)
-        detectors |= {item.name: detector for of, item in usable if of == fold}
-        if kept and kept.folder:
-            detector.bank.save(kept.folder / f"{key}-{fold}.npz")
-    if kept and kept.folder:
-        told = [[failure.name, failure.reason] for failure in failures]
-        kept.keep(key, {"of": {item.name: fold for fold, item in usable}, "failed": told})
-    return detectors, failures
-
-
-def _kept_banks(
-    kept: Kept, key: str, folds: int
-) -> tuple[list[FilterBank], dict[str, int], list[Failure]] | None:
-    """Banks that an earlier run has trained, the fold of each photo, and photos that failed."""
-    record = kept.find(key)
-    if record is None or kept.folder is None:
-        return None
-    try:
-        banks = [FilterBank.load(kept.folder / f"{key}-{fold}.npz") for fold in range(folds)]
-    except FilterBankError:
-        return None
-    return banks, record["of"], [Failure(name, reason) for name, reason in record["failed"]]
-
-
-def _content(item: DatasetItem) -> str:
-    """Digest of a photo; of one that cannot be read, which fails in its turn, of its name."""
-    try:
-        return digest_of_item("", item)
-    except OSError:
-        return item.name
-
-
-def train_on(
-    items: Sequence[DatasetItem],
-    training: TrainingConfig,
-    *,
-    seed: int = 0,
-    dataset: str = "",
-    workers: int = 1,
-) -> tuple[FilterBank, list[Failure]]:
-    """Learn a filter bank from photos that have a truth, in several processes.
-
-    Returns:
-        The bank, the very one that `training.train` gives, and the photos that failed.
-
-    Raises:
-        ValueError: Every single photo failed, or there is none.
-    """
-    total, failures = _gather_all(items, training, seed, workers)
-    return solve(total, seed, training, dataset), failures
-
-
-def train_sizes(
-    items: Sequence[DatasetItem],
-    training: TrainingConfig,
-    *,
-    seed: int = 0,
-    dataset: str = "",
-) -> tuple[list[FilterBank], list[Failure]]:
-    """Learn a filter bank of every size, of `FILTER_SIZES`; each photo is looked at once.
-
-    Takes what `train_on` takes. Works in this process: Gram matrices of the largest filters, 120
-    MB, are dear to send.
-
-    Returns:
-        The banks that `train_on` gives with each size, smallest first, and the photos that failed.
-
-    Raises:
-        ValueError: Every single photo failed, or there is none.
-    """
-    total, failures = _gather_all(items, replace(training, filter_size=FILTER_SIZES[-1]), seed)
-    banks = [
-        solve(total.cropped(size), seed, replace(training, filter_size=size), dataset)
-        for size in FILTER_SIZES
-    ]
-    return banks, failures
-
-
-def _gather_all(
-    items: Sequence[DatasetItem], training: TrainingConfig, seed: int, workers: int = 1
-) -> tuple[GramMatrices, list[Failure]]:
-    """Summed Gram matrices of all photos, and the photos that failed."""
-    total = GramMatrices.empty(training)
-    failures = []
-    work = partial(gather_item, training, seed)
-    for outcome in run(work, items, workers=workers, title="training"):
-        if isinstance(outcome, Failure):
-            failures.append(outcome)
-        else:
-            total += outcome
-    if total.images == 0:
-        reason = f", and the first one failed: {failures[0]}" if failures else "."
-        raise ValueError(f"training needs at least one photo with a true skyline{reason}")
-    return total, failures
-
-
-def gather_item(training: TrainingConfig, seed: int, item: DatasetItem) -> GramMatrices:
-    """Gram matrices of one photo of a data set.
-
-    Raises:
-        PhotoError: The photo cannot be read.
-        SkylineError: It has no truth, or one that does not fit.
-    """
-    truth = _truth(item)  # first: without it there is no need to read the photo
-    return gather(item.photo(), truth, seed, training)
-
-
-@cache
-def warm_up() -> None:
-    """Load the compiled loops of this process, lest the first photo's time include that."""
-    photo = np.full((32, 32, 3), 200, np.uint8)
-    photo[16:] = 50
-    Detector().detect(photo)
+    chosen = chosen_methods(methods)
+    assigned = assign(items, chosen, folds, seed=seed, workers=workers, kept=kept)
+    return _tested(assigned, workers, kept)
 
 
 @dataclass(frozen=True)
-class Test:
-    """A photo, and the detector that it is tested with."""
+class Assigned:
+    """Which photos each method is tested on, and as what it is."""
 
-    item: DatasetItem
-    detector: Method
-    digest: str = ""
-    """Of the detector, where results are kept."""
+    tasks: Mapping[str, Sequence[PhotoTask]]
+    """For each method by its name, the photos, each with the method as it is tested on it."""
 
-    @property
-    def name(self) -> str:
-        """The photo's name."""
-        return self.item.name
+    methods: Mapping[str, Method]
+    """The methods as the first fold is tested with them, but for those that could not learn."""
 
+    failures: Mapping[str, Sequence[Failure]]
+    """For each method, photos that it cannot be tested on, and why it could not learn."""
 
-def tests_of(
-    items: Iterable[DatasetItem], detectors: Mapping[str, Method], kept: Kept | None = None
-) -> list[Test]:
-    """The photos that have a detector, by their names, each with its own."""
-    digests: dict[int, str] = {}
-    if kept and kept.folder:
-        different = {id(one): one for one in detectors.values()}
-        digests = {number: digest_of_method(one) for number, one in different.items()}
-    pairs = [(item, detectors[item.name]) for item in items if item.name in detectors]
-    return [Test(item, one, digests.get(id(one), "")) for item, one in pairs]
+    folds: int
+    """Number of folds; 0 is none."""
+
+    seed: int
+    """Seed of all that was drawn."""
 
 
-def run_tests(
-    tests: Sequence[Test], workers: int = 1, kept: Kept | None = None, title: str = "photos"
-) -> tuple[list[PhotoResult], list[Failure]]:
-    """Results in order, and the photos that failed.
+def assign(
+    items: Iterable[Item],
+    methods: Sequence[Method],
+    folds: int | None = None,
+    *,
+    seed: int = 0,
+    workers: int = 1,
+    kept: Kept | None = None,
+) -> Assigned:
+    """Train methods for each fold, and say which photo is to be tested with which of them.
 
     Args:
-        tests: Photos and their detectors.
+        items: Photos with truth.
+        methods: The methods, no two of one name.
+        folds: Number of folds; None takes the methods as they are.
+        seed: Seed of all that is drawn.
         workers: Number of processes, see `batch.run`.
-        kept: Where finished photos are kept; nowhere unless given.
-        title: What is counted, for the progress bar.
+        kept: Where trained methods are kept; nowhere unless given.
+
+    Raises:
+        ValueError: There are too few photos for so many folds.
     """
-    codec: Codec[PhotoResult] = Codec(asdict, _result)
-    key, kept = partial(key_of, "result"), kept or Kept()
-    outcomes = kept.run(test_photo, tests, key, codec, workers=workers, title=title)
-    return _parted(outcomes)
+    if folds is None:
+        items = tuple(items)
+        tasks = {one.name: photo_tasks([(item, one) for item in items], kept) for one in methods}
+        nothing: dict[str, list[Failure]] = {one.name: [] for one in methods}
+        return Assigned(tasks, {one.name: one for one in methods}, nothing, 0, seed)
+    by_name = tuple(sorted(items, key=lambda item: item.name))
+    parts = Folds(by_name, folds, seed, workers, kept or Kept())
+    tasks, ready, failures = {}, {}, {}
+    for method, learned in zip(methods, parts.learned(methods), strict=True):
+        bad = {failure.name for failure in learned.unusable}
+        pairs = [
+            (item, one)
+            for index, item in enumerate(by_name)
+            if (one := learned.methods[index % folds]) is not None and item.name not in bad
+        ]
+        tasks[method.name] = photo_tasks(pairs, kept)
+        failures[method.name] = [*learned.unusable, *learned.failures]
+        if (first := next(iter(learned.methods), None)) is not None:
+            ready[method.name] = first
+    return Assigned(tasks, ready, failures, folds, seed)
 
 
-def key_of(what: str, test: Test) -> str:
-    """Digest of all that a result is made from.
+def chosen_methods(methods: Methods) -> list[Method]:
+    """Methods as objects.
 
-    Args:
-        what: Kind and settings of the result.
-        test: The photo and its detector.
+    Raises:
+        MethodError: One is unknown, or two have the same name.
     """
-    return digest_of_item(f"{what} {test.digest}", test.item)
+    given = [methods] if isinstance(methods, str) or not isinstance(methods, Sequence) else methods
+    chosen = [find_method(one) if isinstance(one, str) else one for one in given]
+    names = [one.name for one in chosen]
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise MethodError(f"two methods are called {twice[0]}, and results go by the name.")
+    return chosen
 
 
-def _result(record: dict[str, Any]) -> PhotoResult:
-    return PhotoResult(**record)
-
-
-def test_photo(test: Test) -> PhotoResult:
-    """Detect and compare with the truth."""
-    return _detect_and_compare(test.detector, test.item)
-
-
-def _detect_and_compare(detector: Method, item: DatasetItem) -> PhotoResult:
-    truth = _truth(item)
-    photo = item.photo()
-    warm_up()
-    found = detector.detect(photo)
-    return PhotoResult.of(item.name, found.skyline, truth, len(photo), found.total_seconds)
-
-
-def _truth(item: DatasetItem) -> Skyline:
-    truth = item.truth()
-    if truth is None:
-        raise SkylineError("there is no truth")
-    return truth
-
-
-def _parted(
-    outcomes: Iterable[PhotoResult | Failure],
-) -> tuple[list[PhotoResult], list[Failure]]:
-    results: list[PhotoResult] = []
-    failures: list[Failure] = []
-    for outcome in outcomes:
-        if isinstance(outcome, Failure):
-            failures.append(outcome)
-        else:
-            results.append(outcome)
-    return results, failures
+def _tested(assigned: Assigned, workers: int, kept: Kept | None) -> Evaluation:
+    results, failures = {}, {}
+    several = len(assigned.tasks) > 1
+    for name, tasks in assigned.tasks.items():
+        title = name if several else "photos"
+        results[name], failed = compare_photos(tasks, workers=workers, kept=kept, title=title)
+        failures[name] = [*assigned.failures[name], *failed]
+    told = tuple(told_once(failures))
+    return Evaluation(results, told, assigned.methods, assigned.folds, assigned.seed)

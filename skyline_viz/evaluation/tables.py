@@ -8,14 +8,17 @@ from itertools import permutations
 
 import numpy as np
 
+from skyline_viz.bins import Bins
 from skyline_viz.config import DetectorConfig, TrainingConfig
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.item import Item
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation import published
-from skyline_viz.evaluation.comparing import Compared
-from skyline_viz.evaluation.cross_validation import cross_validate, evaluate, train_on
+from skyline_viz.evaluation.cross_validation import cross_validate, evaluate
+from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.results import PhotoResult, Summary
 from skyline_viz.evaluation.timing import Timing
+from skyline_viz.evaluation.training_runs import train_on
+from skyline_viz.filter_bank import FilterBank
 from skyline_viz.method import Method
 from skyline_viz.methods.registry import model_bytes
 from skyline_viz.running.resume import Kept
@@ -53,7 +56,7 @@ class Table:
 _ERRORS = ("mean", "st. dev.", "min", "max")
 
 
-def table_1(measured: Mapping[str, Compared], folds: int) -> Table:
+def table_1(measured: Mapping[str, Evaluation], folds: int) -> Table:
     """Methods on data sets.
 
     Args:
@@ -89,7 +92,7 @@ def table_1(measured: Mapping[str, Compared], folds: int) -> Table:
     )
 
 
-def table_2(measured: Mapping[str, Compared]) -> Table:
+def table_2(measured: Mapping[str, Evaluation]) -> Table:
     """Our detector on all photos, and on those that it gets right."""
     rows: list[tuple[Cell, ...]] = []
     for dataset, compared in measured.items():
@@ -113,7 +116,7 @@ def table_2(measured: Mapping[str, Compared]) -> Table:
 
 
 def table_3(
-    sets: Mapping[str, Sequence[DatasetItem]],
+    sets: Mapping[str, Sequence[Item]],
     folds: int,
     seed: int,
     workers: int,
@@ -124,16 +127,9 @@ def table_3(
     rows: list[tuple[Cell, ...]] = []
     for dataset, items in sets.items():
         for size in SIZES:
-            training = TrainingConfig(filter_size=size, detector=config)
-            results, _ = cross_validate(
-                items,
-                folds,
-                config=config,
-                training=training,
-                seed=seed,
-                workers=workers,
-                kept=kept,
-            )
+            detector = Detector(untrained(size), config)
+            found = cross_validate(items, detector, folds, seed=seed, workers=workers, kept=kept)
+            results = found.results[detector.name]
             good = [one for one in results if one.a_err < GOOD]
             rows.append((f"{size} x {size}", dataset, *_errors(results), _mean(good)))
     rows += [
@@ -150,7 +146,7 @@ def table_3(
 
 
 def table_4(
-    sets: Mapping[str, Sequence[DatasetItem]], seed: int, workers: int, kept: Kept | None = None
+    sets: Mapping[str, Sequence[Item]], seed: int, workers: int, kept: Kept | None = None
 ) -> Table:
     """Training sets: each data set is learned from, and tested on each other one."""
     rows: list[tuple[Cell, ...]] = []
@@ -158,8 +154,8 @@ def table_4(
     for learned, tested in permutations(sets, 2):
         training = TrainingConfig(detector=config)
         bank, _ = train_on(sets[learned], training, seed=seed, dataset=learned, workers=workers)
-        results, _ = evaluate(sets[tested], Detector(bank, config), workers=workers, kept=kept)
-        summary = Summary.of(results)
+        found = evaluate(sets[tested], Detector(bank, config), workers=workers, kept=kept)
+        (summary,) = found.summaries.values()
         rows.append((learned, tested, summary.mean, summary.standard_deviation))
     rows += [
         (f"{learned}, published", tested, errors.mean, errors.standard_deviation)
@@ -175,7 +171,7 @@ def table_4(
     )
 
 
-def table_5(measured: Mapping[str, Compared], folds: int) -> Table:
+def table_5(measured: Mapping[str, Evaluation], folds: int) -> Table:
     """Segmentation accuracy beside A_err."""
     rows: list[tuple[Cell, ...]] = []
     for dataset, compared in measured.items():
@@ -237,6 +233,12 @@ def table_6(timings: Sequence[Timing], fitted: Mapping[str, Method]) -> Table:
             "Learned models as they lie in memory, networks as the file that is run.",
         ),
     )
+
+
+def untrained(size: int) -> FilterBank:
+    """A bank that says which filters are to be learned."""
+    count = Bins().count
+    return FilterBank(np.zeros((count, size, size), np.float32), np.zeros(count, np.int64))
 
 
 def _title(name: str) -> str:

@@ -25,12 +25,12 @@ import numpy as np
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.diagnosis.diagnosing import diagnose
-from skyline_viz.evaluation.cross_validation import warm_up
 from skyline_viz.gallery.documents import made, read_list, write_list
 from skyline_viz.gallery.thumbnails import write_thumbnail
 from skyline_viz.method import Method
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.resume import digest_of_files, digest_of_method
+from skyline_viz.running.warming import warm_up
 from skyline_viz.system.names import recording_id
 from skyline_viz.viewer.comparison import log_comparison
 from skyline_viz.viewer.diagnosis_recording import log_diagnosis

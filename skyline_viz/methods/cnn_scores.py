@@ -29,7 +29,7 @@ import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, Bool
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.item import Item
 from skyline_viz.edges import to_grey
 from skyline_viz.method import MethodError, Model, shown_to_learners
 from skyline_viz.methods.extras import needed
@@ -78,7 +78,7 @@ class CnnScores(DenseScores):
         """All its fusions learn the same."""
         return "cnn-dcsi"
 
-    def learn(self, items: Sequence[DatasetItem], seed: int) -> Model:
+    def learn(self, items: Sequence[Item], seed: int) -> Model:
         """See `method.Learner.fit`; needs PyTorch and ONNX."""
         torch = needed("torch", "deep", self.name)
         onnx = needed("onnx", "deep", self.name)

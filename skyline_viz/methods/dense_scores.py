@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, Bool
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.item import Item
 from skyline_viz.edges import to_grey
 from skyline_viz.method import Model, shown_to_learners
 from skyline_viz.methods.extras import needed
@@ -42,7 +42,7 @@ class SvmScores(DenseScores):
         """All its fusions learn the same."""
         return "svm-dcsi"
 
-    def learn(self, items: Sequence[DatasetItem], seed: int) -> Model:
+    def learn(self, items: Sequence[Item], seed: int) -> Model:
         """See `method.Learner.fit`; needs scikit-learn."""
         svm = needed("sklearn.svm", "methods", self.name)
         linear = needed("sklearn.linear_model", "methods", self.name)

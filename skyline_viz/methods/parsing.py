@@ -20,7 +20,7 @@ import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, check_photo
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.item import Item
 from skyline_viz.detection import Detection, timed
 from skyline_viz.method import LearnedMethod, MethodError, Model, shown_to_learners
 from skyline_viz.methods.extras import needed
@@ -54,7 +54,7 @@ class SceneParsing(HoldsNetwork, LearnedMethod):
     """File of pretrained weights of the backbone: a PyTorch state dict of VGG-16 (``.pth`` with
     ``features.0.weight`` and so on). Published ones need a width of 1."""
 
-    def learn(self, items: Sequence[DatasetItem], seed: int) -> Model:
+    def learn(self, items: Sequence[Item], seed: int) -> Model:
         """Train the network.
 
         Raises:

@@ -41,7 +41,7 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.item import Item
 from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import edge_pixels
 from skyline_viz.method import LearnedMethod, Model, shown_to_learners
@@ -102,7 +102,7 @@ class SiftHog(LearnedMethod):
         """All three use the same classifier."""
         return "sift-hog"
 
-    def learn(self, items: Sequence[DatasetItem], seed: int) -> Model:
+    def learn(self, items: Sequence[Item], seed: int) -> Model:
         """Train the classifier.
 
         Returns:

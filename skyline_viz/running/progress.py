@@ -1,6 +1,7 @@
 """A progress bar for people who wait, and silence for programs."""
 
 import sys
+import threading
 from time import perf_counter
 from typing import TYPE_CHECKING, Self
 
@@ -14,7 +15,8 @@ PROGRESS_AFTER = 1.0
 class ProgressBar:
     """A bar on stderr, once the work has taken a while; nothing unless stderr is a terminal.
 
-    Lines that are printed meanwhile appear above it.
+    Lines that are printed meanwhile appear above it. Work behind somebody's back, in another thread
+    than the first, has none.
     """
 
     def __init__(self, total: int, title: str) -> None:
@@ -34,7 +36,7 @@ class ProgressBar:
     def advance(self) -> None:
         """Count one more photo."""
         self._done += 1
-        if self._shown is None and self._done < self._total and sys.stderr.isatty():
+        if self._shown is None and self._done < self._total and _is_watched():
             if perf_counter() - self._began < PROGRESS_AFTER:
                 return
             self._shown = self._show()
@@ -63,3 +65,7 @@ class ProgressBar:
         )
         progress.start()
         return progress, progress.add_task(self._title, total=self._total)
+
+
+def _is_watched() -> bool:
+    return sys.stderr.isatty() and threading.current_thread() is threading.main_thread()

@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from skyline_viz import __version__
+from skyline_viz.datasets.item import Item
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.detector import Detector
 from skyline_viz.files import write_text
@@ -208,8 +209,12 @@ def digest_of_files(start: str, item: DatasetItem) -> str:
     return digest.hexdigest()
 
 
-def digest_of_item(start: str, item: DatasetItem) -> str:
+def digest_of_item(start: str, item: Item) -> str:
     """Digest of a photo's name, of how its truth is read, and of the content of both."""
+    if not isinstance(item, DatasetItem):  # no files: what it gives
+        truth = item.truth()
+        parts = () if truth is None else (truth.rows.tobytes(), truth.visible.tobytes())
+        return digest_of(start, item.name, item.photo().tobytes(), *parts)
     values = {one.name: getattr(item, one.name) for one in fields(item)}
     told = {name: value for name, value in values.items() if not isinstance(value, Path)}
     return digest_of_files(digest_of(start, told), item)

@@ -16,13 +16,15 @@ def test_evaluate_prints_and_writes(say, hills, tmp_path):
     assert files(tmp_path / "report") == ["histogram.png", "photos.csv", "summary.json"]
     summary = json.loads((tmp_path / "report" / "summary.json").read_text())
     assert (summary["dataset"], summary["layout"]) == ("hills", "plain")
-    assert summary["summary"]["photos"] == 4
-    assert summary["config"]["delta"] == sv.DetectorConfig().delta
+    assert summary["summary"]["default"]["photos"] == 4
+    settings = summary["settings"]["default"]
+    assert settings["config"]["delta"] == sv.DetectorConfig().delta
+    assert settings["bank"]["images"] == 40
     with (tmp_path / "report" / "photos.csv").open(newline="") as file:
         lines = list(csv.DictReader(file))
     assert [line["name"] for line in lines] == ["p0", "p1", "p2", "p3"]
     mean = np.mean([float(line["a_err"]) for line in lines])
-    assert summary["summary"]["mean"] == pytest.approx(mean, abs=1e-4)
+    assert summary["summary"]["default"]["mean"] == pytest.approx(mean, abs=1e-4)
     assert f"{mean:.2f} px" in out
     assert "p3" in out
 
@@ -57,3 +59,25 @@ def test_a_report_is_not_written_among_the_photos(say, hills):
     before = files(hills)
     assert say("evaluate", hills, "--out", hills / "images")[0] == 2
     assert files(hills) == before
+
+
+def test_one_method_is_printed_with_its_worst_photos_and_several_as_a_table(say, hills):
+    status, out, _ = say("evaluate", hills, "--method", "edges")
+    assert status == 0
+    assert out.startswith("hills: 4 photos, edges, as it is\n")
+    assert "Worst photos" in out
+    status, out, _ = say("evaluate", hills, "--method", "edges", "default")
+    assert status == 0
+    assert out.startswith("hills: 4 photos, as they are; A_err in px\n")
+    assert [line.split()[0] for line in out.splitlines()[1:]] == ["method", "edges", "default"]
+
+
+def test_several_methods_write_the_files_that_one_writes(say, hills, tmp_path):
+    words = ["--method", "default", "edges", "--folds", "2", "--out", "report"]
+    status, out, _ = say("evaluate", hills, *words)
+    assert status == 0
+    assert "summary.json, photos.csv, histogram.png in report" in out
+    assert files(tmp_path / "report") == ["histogram.png", "photos.csv", "summary.json"]
+    with (tmp_path / "report" / "photos.csv").open(newline="") as file:
+        lines = list(csv.DictReader(file))
+    assert [line["method"] for line in lines] == ["default"] * 4 + ["edges"] * 4

@@ -37,7 +37,7 @@ def test_two_data_sets_are_tables_on_one_page(say, hills, tmp_path):
     assert "other" in out
     assert (tmp_path / "out" / "tables.md").read_text() in out
     assert (tmp_path / "out" / "tables.tex").is_file()
-    assert {path.parent.name for path in (tmp_path / "out").rglob("methods.csv")} == {
+    assert {path.parent.name for path in (tmp_path / "out").rglob("photos.csv")} == {
         "hills",
         "other",
     }

@@ -5,9 +5,9 @@ import json
 import pytest
 
 import skyline_viz as sv
+from skyline_viz.diagnosis.data_set import diagnose_photo
 from skyline_viz.diagnosis.record import pack, unpack
-from skyline_viz.diagnosis.report import diagnose_item
-from skyline_viz.evaluation import cross_validation as evaluation
+from skyline_viz.evaluation.tasks import PhotoTask
 from testing.ends import write_set
 
 PHOTOS = 6
@@ -22,7 +22,7 @@ def test_a_diagnosis_comes_back_as_it_was(data):
     (item, *_) = sv.open_dataset(data)
     item = type(item)(item.name, item.photo_path, data.parent / "low.csv")
     sv.Skyline([110.0] * 160).write_csv(data.parent / "low.csv")
-    one = diagnose_item(None, evaluation.Test(item, sv.Detector()), remedies=True)
+    one = diagnose_photo(None, PhotoTask(item, sv.Detector()), remedies=True)
     assert one.diagnosis.segments
     assert one.remedies
     again = unpack(json.loads(json.dumps(pack(one))))

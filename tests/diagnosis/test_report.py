@@ -7,8 +7,10 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.diagnosis.diagnosing import diagnose
-from skyline_viz.diagnosis.report import Diagnosed, settings_to_try, try_remedies, write_csv
-from skyline_viz.diagnosis.report import _broken as broken
+from skyline_viz.diagnosis.record import Diagnosed
+from skyline_viz.diagnosis.remedies import _broken as broken
+from skyline_viz.diagnosis.remedies import settings_to_try, try_remedies
+from skyline_viz.diagnosis.report import write_csv
 from testing.detections import flat_truth
 
 

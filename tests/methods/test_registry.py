@@ -12,7 +12,6 @@ import skyline_viz as sv
 from skyline_viz.cli import main
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation import published, tables
-from skyline_viz.evaluation.comparing import compare_methods
 from skyline_viz.evaluation.cross_validation import cross_validate
 from skyline_viz.evaluation.tables_report import latex, markdown
 from skyline_viz.evaluation.timing import time_methods
@@ -32,7 +31,6 @@ from skyline_viz.methods.registry import (
 from skyline_viz.methods.score_images import PATCH
 from skyline_viz.methods.sky_network import SkyNetwork
 from skyline_viz.rendering import render
-from skyline_viz.running.batch import Failure
 
 SIZE = (160, 120)
 
@@ -99,42 +97,6 @@ def test_a_method_comes_back_from_its_file(tmp_path):
     assert method_digest(EdgesOnly()) != method_digest(method)
 
 
-def test_folds_test_each_photo_with_what_was_learned_from_others(items):
-    seen = []
-
-    class Spy(Detector):
-        def fit(self, items, seed=0):
-            seen.append([item.name for item in items])
-            return self
-
-    found = compare_methods(items, [Spy(), EdgesOnly()], folds=2)
-    assert seen == [["hill-1", "hill-3"], ["hill-0", "hill-2"]]
-    names = [one.name for one in found.results["edges"]]
-    assert names == ["hill-0", "hill-1", "hill-2", "hill-3"]
-    assert not found.failures
-    assert set(found.fitted) == {"default", "edges"}
-    with pytest.raises(ValueError, match="from 2 to the 4 photos, not 9"):
-        compare_methods(items, [EdgesOnly()], folds=9)
-
-
-def test_cross_validation_agrees_with_that_of_our_detector(items):
-    ours, _ = cross_validate(items, 2)
-    found = compare_methods(items, [Detector()], folds=2)
-    assert [one.a_err for one in found.results["default"]] == [one.a_err for one in ours]
-
-
-def test_a_method_that_cannot_learn_is_one_failure_and_others_go_on(items):
-    class Poor(Detector):
-        def fit(self, items, seed=0):
-            raise ValueError("it rains.")
-
-    poor = Poor(config=sv.DetectorConfig.paper())
-    found = compare_methods(items, [poor, EdgesOnly()], folds=2)
-    assert found.results["paper"] == []
-    assert len(found.results["edges"]) == 4
-    assert found.failures == [Failure("paper", "it rains.")]
-
-
 def test_times_are_told_for_every_method(items):
     timings = time_methods({"edges": EdgesOnly()}, items[0].photo())
     assert [one.name for one in timings] == ["edges"]
@@ -142,7 +104,7 @@ def test_times_are_told_for_every_method(items):
 
 
 def test_tables_put_measured_and_published_rows_side_by_side(items):
-    measured = {"hills": compare_methods(items, [Detector(), EdgesOnly()], folds=2)}
+    measured = {"hills": cross_validate(items, [Detector(), EdgesOnly()], 2)}
     first = tables.table_1(measured, 2)
     assert first.rows[0][:3] == ("Ours, default", "hills", "the other folds of 2")
     assert first.rows[1][:3] == ("Edges only", "hills", "nothing")
@@ -150,7 +112,7 @@ def test_tables_put_measured_and_published_rows_side_by_side(items):
         row[:7] for row in first.rows
     ]
     sixth = tables.table_6(
-        time_methods(measured["hills"].fitted, items[0].photo()), measured["hills"].fitted
+        time_methods(measured["hills"].methods, items[0].photo()), measured["hills"].methods
     )
     assert sixth.rows[0][3] == "1.0"
     page, paper = markdown([first, sixth]), latex([first, sixth])
@@ -172,9 +134,9 @@ def test_commands_compare_train_and_detect(folder, tmp_path, capsys):
     said = capsys.readouterr().out
     assert "hills: 4 photos, 2-fold cross-validation" in said
     assert re.search(r"^edges +\d", said, re.MULTILINE)
-    document = json.loads((tmp_path / "out" / "methods.json").read_text())
-    assert set(document["methods"]) == {"default", "edges"}
-    lines = (tmp_path / "out" / "methods.csv").read_text().splitlines()
+    document = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert set(document["summary"]) == {"default", "edges"}
+    lines = (tmp_path / "out" / "photos.csv").read_text().splitlines()
     assert len(lines) == 9
     photo = str(folder / "images" / "hill-0.png")
     assert main(["detect", photo, "--method", "edges", "--out", str(tmp_path)]) == 0
@@ -199,7 +161,7 @@ def test_the_command_writes_tables(folder, tmp_path, capsys):
     assert "## Table I: A_err of earlier methods" in capsys.readouterr().out
     assert (tmp_path / "tables.md").read_text().count("## Table") == 4
     assert r"\begin{tabular}" in (tmp_path / "tables.tex").read_text()
-    assert (tmp_path / "histogram-paper.png").exists()
+    assert (tmp_path / "histogram.png").exists()
     assert main(["tables", str(folder), "--folds", "1", "--out", str(tmp_path)]) == 2
 
 
@@ -250,7 +212,7 @@ def test_tables_outlive_a_photo_that_is_damaged(folder, tmp_path, capsys):
     assert main(words) == 1
     assert "hill-0" in capsys.readouterr().err
     assert (tmp_path / "out" / "tables.md").read_text().count("## Table") == 6
-    lines = (tmp_path / "out" / "methods.csv").read_text().splitlines()
+    lines = (tmp_path / "out" / "photos.csv").read_text().splitlines()
     assert len(lines) == 1 + 2 * 3
 
 

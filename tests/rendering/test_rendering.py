@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from skyline_viz import rendering
 from skyline_viz.photo import read_photo
 from skyline_viz.rendering import KINDS, SAMPLES, render, sample_scenes, write_scenes
+from skyline_viz.rendering import scenes as rendering
 from skyline_viz.skyline import Skyline
 
 WIDTH, HEIGHT = 320, 180

@@ -12,7 +12,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz import detector
 from skyline_viz.cli import main
-from skyline_viz.evaluation import cross_validation as evaluation
+from skyline_viz.evaluation.tasks import PhotoTask
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import FOLDER, Codec, Kept
 from testing import until
@@ -54,10 +54,10 @@ def written(out):
     found = {}
     for path in sorted(path for path in out.rglob("*") if path.is_file()):
         text = path.read_bytes()
-        if path.name in ("photos.csv", "methods.csv"):
+        if path.name == "photos.csv":
             rows = list(csv.DictReader(path.read_text().splitlines()))
             text = [{key: row[key] for key in row if key != "seconds"} for row in rows]
-        elif path.name in ("summary.json", "methods.json"):
+        elif path.name == "summary.json":
             text = re.sub(r'"seconds": [\d.]+', "", path.read_text())
         elif path.name == "tables.md":
             text = path.read_text().split("Table VI")[0]
@@ -177,18 +177,18 @@ def test_photos_that_fail_fail_again_and_the_run_is_whole(data, tmp_path, capsys
 def test_a_photo_that_cannot_be_found_is_a_failure_with_its_own_words(tmp_path):
     codec = Codec(dict, dict)
     item = sv.DatasetItem("gone", tmp_path / "gone.png")
-    test = evaluation.Test(item, sv.Detector(), "digest")
+    photo_task = PhotoTask(item, sv.Detector(), "digest")
 
     def key(task):
         return str(task.item.photo_path.read_bytes())
 
-    (outcome,) = Kept(tmp_path / FOLDER).run(_photo_of, [test], key, codec)
+    (outcome,) = Kept(tmp_path / FOLDER).run(_photo_of, [photo_task], key, codec)
     assert isinstance(outcome, Failure)
     assert "gone.png cannot be read" in str(outcome)
 
 
-def _photo_of(test):
-    return {"rows": len(test.item.photo())}
+def _photo_of(task):
+    return {"rows": len(task.item.photo())}
 
 
 @pytest.mark.parametrize("ending", [signal.SIGKILL, signal.SIGTERM])

@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 
 from annotate.store.operations import SetAnchor, SetStatus, Straight
+from annotate.work import learning
 from annotate.work.learning import LEAST, Learner
 from skyline_viz.detector import Detector
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.photo import write_photo
+from skyline_viz.photo import PhotoError, read_photo, write_photo
+from skyline_viz.training import train
 from testing import until
 from testing.labelling import workbench, write_hills
 
@@ -45,6 +47,32 @@ def test_a_bank_that_is_no_better_is_not_taken_over(bench):
     assert now.state == "done"
     assert "stays as it is" in now.detail
     assert bench.detector is before
+
+
+def test_a_photo_that_is_gone_ends_learning_in_a_sentence(bench, monkeypatch):
+    accept(bench, LEAST)
+
+    def read_whole(*_):
+        raise PhotoError("the photo is gone.")
+
+    monkeypatch.setattr(learning, "read_whole", read_whole)
+    now = learned(bench)
+    assert (now.state, now.detail, now.changed) == ("failed", "the photo is gone.", 0)
+
+
+def test_what_is_learned_is_that_of_the_library_and_names_the_folder(bench):
+    photos = list(bench.photos)[:LEAST]
+    accept(bench, LEAST)
+    sessions = [bench.session(one) for one in photos]
+    pairs = [
+        (read_photo(bench.store.folder / one.photo.name), one.wire.skyline) for one in sessions
+    ]
+    flat = FilterBank(-bench.detector.bank.filters, bench.detector.bank.samples)
+    bench.detector = Detector(flat, bench.detector.config)
+    assert learned(bench).state == "done"
+    expected = train(pairs, config=bench.detector.training)
+    np.testing.assert_allclose(bench.detector.bank.filters, expected.filters, atol=1e-6)
+    assert bench.detector.bank.provenance.dataset == bench.store.folder.name
 
 
 def test_untouched_photos_get_new_proposals_from_a_better_bank(bench):

@@ -1,0 +1,99 @@
+"""What commands have in common that test methods on photos with truth: options, and first steps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import tyro
+
+from skyline_viz import running
+from skyline_viz.command_line.inputs import output_folder, with_truth
+from skyline_viz.command_line.messages import UsageError
+from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.settings import BankFile, Folder, Preset
+from skyline_viz.command_line.sizes import MaxMegapixels, foresee
+from skyline_viz.command_line.truth_options import TruthOptions, Truths
+from skyline_viz.config import DetectorConfig
+from skyline_viz.system.memory import DETECTING, MAX_MEGAPIXELS
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from skyline_viz.datasets import Dataset, DatasetItem
+    from skyline_viz.running import Kept
+
+
+@dataclass(frozen=True)
+class OnTruth:
+    """Options of a command that tests methods on photos with truth."""
+
+    dataset: tyro.conf.Positional[Folder]
+    """Folder of a data set with truths, in a published layout or plain."""
+
+    folds: int = 0
+    """Folds of a cross-validation, which trains on all folds but the one it tests; 0 is none."""
+
+    methods: MethodOptions = field(default_factory=Methods)
+    """What is tested; the detector with the settings below unless given."""
+
+    truths: TruthOptions = field(default_factory=Truths)
+    """How to read masks that leave a choice."""
+
+    bank: BankFile = None
+    """Filter bank to use; the shipped one unless given."""
+
+    preset: Preset = "default"
+    """Where the settings below start from: the best that is known, or the published method."""
+
+    seed: int = 0
+    """Seed of the negative samples in a cross-validation."""
+
+    workers: int = 0
+    """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
+
+    max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
+    """Largest photo that is read, in million pixels."""
+
+    config: DetectorConfig = field(default_factory=DetectorConfig)
+    """Single settings of the detector."""
+
+    def open(self) -> tuple[Dataset, list[DatasetItem]]:
+        """The data set, and its photos that have a truth.
+
+        Raises:
+            UsageError: Options contradict each other, or no photo has a truth.
+            DatasetError: The folder is no data set.
+        """
+        if self.folds and self.bank:
+            raise UsageError("--folds trains filter banks of its own; leave out --bank.")
+        if self.seed < 0:
+            raise UsageError(f"a seed is 0 or more, not {self.seed}.")
+        dataset = self.truths.open(self.dataset)
+        return dataset, with_truth(dataset)
+
+    def begin(
+        self,
+        command: str,
+        dataset: Dataset,
+        items: Sequence[DatasetItem],
+        out: Path | None,
+        bytes_a_pixel: int = DETECTING,
+    ) -> tuple[int, Kept]:
+        """Make the folder of outputs; return the number of processes, and what an earlier run kept.
+
+        Args:
+            command: Its name.
+            dataset: The data set.
+            items: Its photos to work on.
+            out: The folder, or None.
+            bytes_a_pixel: What the work takes, see `skyline_viz.system.memory`.
+
+        Raises:
+            UsageError: The folder cannot be made, or is one of photos.
+        """
+        if out:
+            output_folder(out, dataset)
+        workers = foresee(items, self.workers, bytes_a_pixel)
+        return workers, running.Kept.within(out, command)

@@ -1,0 +1,71 @@
+"""A whole data set, diagnosed photo by photo, each with what would help."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from skyline_viz.datasets.item import photo_and_truth
+from skyline_viz.detector import FilterDetection
+from skyline_viz.diagnosis.diagnosing import diagnose
+from skyline_viz.diagnosis.record import Diagnosed, pack, unpack
+from skyline_viz.diagnosis.remedies import Remedy, try_remedies
+from skyline_viz.evaluation.metrics import column_errors
+from skyline_viz.evaluation.tasks import PhotoTask, run_tasks
+from skyline_viz.running.batch import Failure
+from skyline_viz.running.resume import Codec, Kept
+
+
+def diagnose_photos(
+    tasks: Sequence[PhotoTask],
+    tolerance: float = 0.0,
+    *,
+    remedies: bool = True,
+    workers: int = 1,
+    kept: Kept | None = None,
+) -> tuple[list[Diagnosed], list[Failure]]:
+    """Diagnose photos, each as the method finds it that it is to be tested with.
+
+    Args:
+        tasks: Photos and methods, see `evaluation.assign`.
+        tolerance: See `diagnosis.diagnose`; 0 takes the usual one.
+        remedies: Whether to try other settings, too.
+        workers: Number of processes, see `batch.run`.
+        kept: Where finished photos are kept; nowhere unless given.
+
+    Returns:
+        The diagnosed photos in order, and those that failed.
+    """
+    return run_tasks(
+        partial(diagnose_photo, tolerance or None, remedies=remedies),
+        tasks,
+        f"diagnosis {tolerance} {remedies}",
+        Codec(pack, unpack),
+        workers=workers,
+        kept=kept,
+        title="diagnosing",
+    )
+
+
+def diagnose_photo(tolerance: float | None, task: PhotoTask, *, remedies: bool) -> Diagnosed:
+    """Diagnose a photo of a data set.
+
+    Args:
+        tolerance: See `diagnosis.diagnose`.
+        task: The photo and its method.
+        remedies: Whether to try other settings, too.
+
+    Raises:
+        PhotoError: The photo cannot be read.
+        SkylineError: It has no truth, or one that does not fit.
+    """
+    photo, truth = photo_and_truth(task.item)
+    detection = task.method.detect(photo)
+    found = diagnose(detection, truth, tolerance)
+    errors = column_errors(detection.skyline, truth)
+    tried: tuple[Remedy, ...] = ()
+    if remedies and isinstance(detection, FilterDetection):
+        tried = try_remedies(detection, truth, found)
+    return Diagnosed(task.name, float(np.nanmean(errors)), found, tried)

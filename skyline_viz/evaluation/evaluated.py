@@ -1,0 +1,47 @@
+"""What an evaluation found, method by method and photo by photo."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from skyline_viz.evaluation import terminal
+from skyline_viz.evaluation.results import PhotoResult, Summary
+from skyline_viz.method import Method
+from skyline_viz.running.batch import Failure
+
+
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """Methods that were tested on the same photos. Printed, it is a table, as in a notebook."""
+
+    results: Mapping[str, Sequence[PhotoResult]]
+    """For each method, by its name, the results of the photos; those that failed have none."""
+
+    failures: tuple[Failure, ...] = ()
+    """Photos that could not be read or tested, and methods that could not learn, with the reason.
+    What failed under one method of several has its name behind that of the photo."""
+
+    methods: Mapping[str, Method] = field(default_factory=dict)
+    """The methods by name: of a cross-validation as the first fold was tested with them. One that
+    could not learn is missing."""
+
+    folds: int = 0
+    """Folds of the cross-validation; 0 is none."""
+
+    seed: int = 0
+    """Seed of all that was drawn."""
+
+    @property
+    def summaries(self) -> dict[str, Summary]:
+        """Mean, median and other figures over all photos, for each method."""
+        return {name: Summary.of(found) for name, found in self.results.items()}
+
+    def __str__(self) -> str:
+        """A line for each method, and one for each failure."""
+        table = terminal.drawn(terminal.methods_table(self.results), width=110)
+        return "\n".join([table, *map(str, self.failures)])
+
+    def _repr_html_(self) -> str:
+        """The same for a notebook."""
+        return terminal.methods_html(self.results, [str(one) for one in self.failures])

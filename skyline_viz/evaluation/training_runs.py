@@ -1,0 +1,84 @@
+"""Filter banks from whole data sets: in several processes, past photos that fail."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+from skyline_viz.config import FILTER_SIZES, TrainingConfig
+from skyline_viz.datasets.item import Item
+from skyline_viz.filter_bank import FilterBank
+from skyline_viz.running.batch import Failure, run
+from skyline_viz.training import GramMatrices, gather_item, solve
+
+
+def train_on(
+    items: Sequence[Item],
+    training: TrainingConfig,
+    *,
+    seed: int = 0,
+    dataset: str = "",
+    workers: int = 1,
+) -> tuple[FilterBank, list[Failure]]:
+    """Learn a filter bank from photos that have a truth, in several processes.
+
+    Args:
+        items: Photos with truth.
+        training: How samples are drawn and filters are solved.
+        seed: Seed of the negative samples.
+        dataset: Name for the bank's provenance.
+        workers: Number of processes, see `batch.run`.
+
+    Returns:
+        The bank, the very one that `training.train` gives, and the photos that failed.
+
+    Raises:
+        ValueError: Every single photo failed, or there is none.
+    """
+    total, failures = _gather_all(items, training, seed, workers)
+    return solve(total, seed, training, dataset), failures
+
+
+def train_sizes(
+    items: Sequence[Item],
+    training: TrainingConfig,
+    *,
+    seed: int = 0,
+    dataset: str = "",
+) -> tuple[list[FilterBank], list[Failure]]:
+    """Learn a filter bank of every size, of `FILTER_SIZES`; each photo is looked at once.
+
+    Takes what `train_on` takes. Works in this process: Gram matrices of the largest filters, 120
+    MB, are dear to send.
+
+    Returns:
+        The banks that `train_on` gives with each size, smallest first, and the photos that failed.
+
+    Raises:
+        ValueError: Every single photo failed, or there is none.
+    """
+    total, failures = _gather_all(items, replace(training, filter_size=FILTER_SIZES[-1]), seed)
+    banks = [
+        solve(total.cropped(size), seed, replace(training, filter_size=size), dataset)
+        for size in FILTER_SIZES
+    ]
+    return banks, failures
+
+
+def _gather_all(
+    items: Sequence[Item], training: TrainingConfig, seed: int, workers: int = 1
+) -> tuple[GramMatrices, list[Failure]]:
+    """Summed Gram matrices of all photos, and the photos that failed."""
+    total = GramMatrices.empty(training)
+    failures = []
+    work = partial(gather_item, training, seed)
+    for outcome in run(work, items, workers=workers, title="training"):
+        if isinstance(outcome, Failure):
+            failures.append(outcome)
+        else:
+            total += outcome
+    if total.images == 0:
+        reason = f", and the first one failed: {failures[0]}" if failures else "."
+        raise ValueError(f"training needs at least one photo with a true skyline{reason}")
+    return total, failures

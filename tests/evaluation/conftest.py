@@ -1,0 +1,10 @@
+"""A small data set for all tests of the evaluation."""
+
+import pytest
+
+from testing.results import write_slanting
+
+
+@pytest.fixture(scope="session")
+def items(tmp_path_factory):
+    return write_slanting(tmp_path_factory.mktemp("evaluation") / "hills")

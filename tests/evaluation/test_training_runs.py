@@ -1,0 +1,42 @@
+"""Banks from whole data sets are those of the library, whatever the processes."""
+
+import numpy as np
+import pytest
+
+import skyline_viz as sv
+from skyline_viz.config import FILTER_SIZES, TrainingConfig
+from skyline_viz.evaluation.training_runs import train_on, train_sizes
+
+
+def test_training_is_that_of_the_library(items):
+    bank, failures = train_on(items, TrainingConfig(), seed=3, dataset="hills")
+    expected = sv.train([(i.photo(), i.truth()) for i in items], seed=3, dataset="hills")
+    assert failures == []
+    np.testing.assert_array_equal(bank.filters, expected.filters)
+    np.testing.assert_array_equal(bank.samples, expected.samples)
+    assert bank.provenance == expected.provenance
+
+
+def test_two_processes_train_the_same_bank(items):
+    alone, _ = train_on(items, TrainingConfig())
+    shared, _ = train_on(items, TrainingConfig(), workers=2)
+    np.testing.assert_array_equal(alone.filters, shared.filters)
+
+
+def test_training_on_nothing_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="at least one photo with a true skyline"):
+        train_on([], TrainingConfig())
+    with pytest.raises(ValueError, match=r"the first one failed: gone: there is no truth"):
+        train_on([sv.DatasetItem("gone", tmp_path / "gone.png")], TrainingConfig())
+
+
+def test_banks_of_all_sizes_are_those_trained_one_by_one(items, tmp_path):
+    gone = sv.DatasetItem("gone", tmp_path / "gone.png", items[0].truth_path)
+    banks, failures = train_sizes([*items, gone], TrainingConfig(), dataset="hills")
+    assert [failure.name for failure in failures] == ["gone"]
+    assert [bank.size for bank in banks] == list(FILTER_SIZES)
+    for bank in banks:
+        alone, _ = train_on(items, TrainingConfig(filter_size=bank.size), dataset="hills")
+        assert np.array_equal(bank.filters, alone.filters)
+        assert np.array_equal(bank.terrain, alone.terrain)
+        assert bank.provenance == alone.provenance
