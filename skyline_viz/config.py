@@ -1,6 +1,6 @@
 """What can be chosen, with units and the reasons for the defaults. Light to import."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from numbers import Integral, Real
 from typing import Literal, TypeAlias
 
@@ -64,6 +64,19 @@ class DetectorConfig:
             raise ValueError(f"edge_source is 'grey' or 'colour', not {self.edge_source!r}")
         if self.low_threshold > self.high_threshold:
             raise ValueError("low_threshold is at most high_threshold")
+
+    def changed(self) -> list[str]:
+        """Settings that differ from the defaults, in words.
+
+        >>> DetectorConfig(delta=1).changed()
+        ['delta 1']
+        """
+        default = type(self)()
+        return [
+            f"{one.name} {getattr(self, one.name)}"
+            for one in fields(self)
+            if getattr(self, one.name) != getattr(default, one.name)
+        ]
 
     @classmethod
     def paper(cls) -> "DetectorConfig":

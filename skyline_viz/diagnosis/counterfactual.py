@@ -17,9 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F64, Bool, Int
-from skyline_viz.cost import CLEAR_SKY_ROWS
 from skyline_viz.detection import Detection
-from skyline_viz.diagnosis.cost_split import edge_index
+from skyline_viz.edges import edge_index
 from skyline_viz.evaluation.metrics import column_errors
 from skyline_viz.path import cheapest_end, sweep, trace
 from skyline_viz.skyline import Skyline
@@ -105,7 +104,7 @@ class Case:
         pixels = self.pixels[(self.pixels >= 0) & self.truth.visible]
         if len(pixels) < _LEAST_TYPICAL:
             return 0.8, (1 - self.detection.score_weight) / 2
-        scores, rest = self.detection.scores[pixels], self.detection.edge_rest[pixels]
+        scores, rest = self.detection.scores[pixels], self.detection.cost_model.edge_rest[pixels]
         typical = max(float(np.percentile(scores, 75)), _LEAST_SCORE)
         return typical, float(np.percentile(rest, 25))
 
@@ -122,10 +121,9 @@ class Case:
         """
         detection = self.detection
         pixels = self.pixels[columns]
-        low = np.maximum(self.typical[0] - detection.scores[pixels], 0.0)
+        raised = detection.cost_model.saved(detection.scores[pixels], self.typical[0])
         here = detection.cost[self.rows[columns], columns].astype(np.float64)
         ruled_out = here >= detection.non_edge_cost
-        raised = detection.score_weight * low
         saved: F64 = np.where(ruled_out, np.maximum(here - self.typical_cost, raised), raised)
         return saved
 
@@ -207,12 +205,9 @@ class Case:
             columns = np.flatnonzero(self.columns_of(change, first, last))
             rows = self.rows[columns]
             if change == "missed edge":
-                cost[columns - start, rows] += self.typical_cost - detection.no_edge_costs(
-                    rows, columns
+                cost += detection.cost_model.more_edges(
+                    rows, columns, self.typical_cost, start, stop
                 )
-                if detection.clear_sky:
-                    below = np.arange(cost.shape[1])[None, :] > rows[:, None] + CLEAR_SKY_ROWS
-                    cost[columns - start] += detection.clear_sky * below
             elif change == "too steep":
                 steps = self.steps[columns]
                 # saved on that side of the step which is farther from the path: the path must
@@ -254,7 +249,7 @@ class Case:
     def _on_edges(self) -> tuple[Int, Int]:
         height, width = self.detection.edges.shape
         rows = self.drawn_rows
-        index = edge_index(self.detection)
+        index = edge_index(self.detection.edges)
         columns = np.arange(width)
         pixels = index[rows, columns]
         found = rows.copy()

@@ -94,7 +94,7 @@ class Segment:
     trials that it was made against; from 0 (a toss-up, or not proved) to 1."""
 
     path_cost: dict[str, float]
-    """What the path pays in the segment, stage by stage, see `cost_split.CostSplit`."""
+    """What the path pays in the segment, term by term, see `cost_split.CostSplit`."""
 
     truth_cost: dict[str, float]
     """What the truth pays."""
@@ -352,7 +352,7 @@ def _effect(case: Case, change: Change, first: int, last: int) -> float:
     columns = np.flatnonzero(case.columns_of(change, first, last))
     detection = case.detection
     if change == "missed edge":
-        due = detection.no_edge_costs(case.rows[columns], columns)
+        due = detection.cost_model["no edge"].at(case.rows[columns], columns)
         return float((due - case.typical_cost).sum())
     if change == "too steep":
         steep = np.maximum(case.steps[columns] - detection.delta, 0)
