@@ -1,5 +1,7 @@
 """What a method found: a skyline, the candidate pixels that it chose from, and what they cost."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -73,6 +75,9 @@ class Detection:
     bank: FilterBank | None = None
     """The filter bank that was used; None of methods without one."""
 
+    thresholds: tuple[float, float] | None = None
+    """Canny thresholds that were used; None of methods that have them fixed, or none."""
+
     maps: Mapping[str, F32] = field(default_factory=lambda: MappingProxyType({}))
     """Further maps ``(H, W)`` that the method made, by name: its own stages."""
 
@@ -123,6 +128,14 @@ class Detection:
         shown = self.cost_model.shown(self.cost)
         yield Stage(COST, shown, "photo")
         yield Stage(PATH, self.skyline.rows, "columns")
+
+    def again(self, config: DetectorConfig) -> Detection:
+        """Find the skyline of the same photo with other settings, see `Detector.again`.
+
+        Raises:
+            ValueError: The method has other settings than ours.
+        """
+        raise ValueError(f"{self.method} has other settings than {type(config).__name__}.")
 
     def about(self) -> list[str]:
         """How it was made, in short sentences."""

@@ -71,6 +71,10 @@ class FilterDetection(Detection):
         yield Stage(SCORE, self.scores, "edges")
         yield from self._last_stages()
 
+    def again(self, config: DetectorConfig) -> FilterDetection:
+        """See `Detector.again`."""
+        return Detector(self.bank, config).again(self)
+
     def about(self) -> list[str]:
         """How it was made, in short sentences: settings, and where the filters are from."""
         if self.config == DetectorConfig.paper():

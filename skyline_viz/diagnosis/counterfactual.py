@@ -19,7 +19,7 @@ import numpy.typing as npt
 from skyline_viz.arrays import F64, Bool, Int
 from skyline_viz.detection import Detection
 from skyline_viz.edges import edge_index
-from skyline_viz.evaluation.metrics import column_errors
+from skyline_viz.evaluation.metrics import column_errors, scaled
 from skyline_viz.path import cheapest_end, sweep, trace
 from skyline_viz.skyline import Skyline
 
@@ -31,9 +31,6 @@ CHANGES: tuple[Change, ...] = get_args(Change)
 
 REPAIRED = 0.8
 """Share of a segment's wrong columns that have to be right for the path to have come back."""
-
-REFERENCE_HEIGHT = 519
-"""Rows of the photos for which tolerances in pixels are meant; larger photos have larger ones."""
 
 _NEAR = 2.0  # rows within which an edge counts as one of the truth, at the reference height
 _LEAST_TYPICAL = 20  # edge pixels that a typical value is taken from
@@ -259,15 +256,6 @@ class Case:
             found[better] = moved[better]
             pixels = np.where(better, index[moved, columns], pixels)
         return found, pixels.astype(np.int32)
-
-
-def scaled(pixels: float, height: int) -> float:
-    """A length that is meant for photos of `REFERENCE_HEIGHT` rows, on a photo of `height` rows.
-
-    >>> scaled(4, 519), scaled(4, 240), scaled(4, 1038)
-    (4, 4, 8.0)
-    """
-    return pixels if height <= REFERENCE_HEIGHT else pixels * height / REFERENCE_HEIGHT
 
 
 def _cheapest(cost: F64, reach: Int, link_weight: float) -> Int:

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment, Trial
-from skyline_viz.diagnosis.report import Diagnosed, Remedy
+from skyline_viz.diagnosis.remedies import Remedy
+from skyline_viz.diagnosis.report import Diagnosed
 
 
 def pack(one: Diagnosed) -> dict[str, Any]:

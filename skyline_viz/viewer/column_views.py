@@ -10,7 +10,7 @@ import numpy.typing as npt
 import rerun as rr
 from matplotlib import colormaps
 
-from skyline_viz.arrays import F64
+from skyline_viz.arrays import F64, runs
 from skyline_viz.detection import Detection
 from skyline_viz.evaluation.metrics import column_errors
 from skyline_viz.overlay import HALO, Colour
@@ -64,11 +64,9 @@ def log_line(
 
 def line_strips(skyline: Skyline) -> list[npt.NDArray[np.float32]]:
     """Points ``(m, 2)`` of (x, y) of each visible run of a skyline, in the viewer's coordinates."""
-    visible = np.concatenate([[False], skyline.visible, [False]])
-    starts, stops = np.flatnonzero(visible[1:] != visible[:-1]).reshape(-1, 2).T
     centres = np.arange(skyline.width, dtype=np.float32) + np.float32(0.5)
     points = np.column_stack([centres, skyline.rows])
-    return [points[start:stop] for start, stop in zip(starts, stops, strict=True)]
+    return [points[first : last + 1] for first, last in runs(skyline.visible)]
 
 
 def log_columns(

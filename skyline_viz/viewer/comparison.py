@@ -6,7 +6,8 @@ import numpy as np
 import rerun as rr
 
 from skyline_viz.detection import Detection
-from skyline_viz.evaluation.verdict import Verdict, wrong_segments
+from skyline_viz.evaluation.metrics import TOLERANCE, scaled, wrong_segments
+from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.overlay import ALTERNATIVE
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.names import named_in_markdown
@@ -53,7 +54,7 @@ def log_comparison(
     words = listed_segments(apart) or "none"
     text = (
         f"**{named_in_markdown(name)}** against the first  \n"
-        f"Columns over 1 % of the height apart: {words}  \n"
+        f"Columns over {scaled(TOLERANCE, height):.3g} px apart: {words}  \n"
         f"Largest difference {np.abs(lower).max():.0f} px, "
         f"mean {np.abs(lower).mean():.2f} px\n"
     )

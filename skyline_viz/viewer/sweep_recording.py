@@ -15,7 +15,8 @@ import rerun as rr
 from skyline_viz.detection import Detection
 from skyline_viz.detector import FilterDetection
 from skyline_viz.diagnosis.sweep import Step, Sweep
-from skyline_viz.evaluation.verdict import Verdict, wrong_segments
+from skyline_viz.evaluation.metrics import TOLERANCE, scaled, wrong_segments
+from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.overlay import ALTERNATIVE, PATH
 from skyline_viz.skyline import Skyline
 from skyline_viz.viewer import entities
@@ -153,10 +154,11 @@ def _outcome(
     words = "The same path as now."
     if apart.any():
         segments = wrong_segments(apart, height)
+        allowed = f"{scaled(TOLERANCE, height):.3g} px"
         where = (
-            f"over 1 % of the height in columns {listed_segments(segments)}"
+            f"over {allowed} in columns {listed_segments(segments)}"
             if segments
-            else "nowhere over 1 % of the height"
+            else f"nowhere over {allowed}"
         )
         words = (
             f"Apart from the present path: {apart.mean():.2f} px in the mean, "
