@@ -36,6 +36,7 @@ from skyline_viz.terms import (
     GivenOthers,
     Link,
     NoEdge,
+    Places,
     Term,
     Terrain,
 )
@@ -239,12 +240,12 @@ class CostModel:
         rest: F64 = self._of_edges(without="score").astype(np.float64)
         return rest
 
-    def more_edges(self, rows: Int, columns: Int, price: float, first: int, last: int) -> F64:
+    def more_edges(self, rows: Places, columns: Places, price: float, first: int, last: int) -> F64:
         """What changes if some pixels without an edge had one.
 
         Args:
             rows: ``(k,)`` their rows.
-            columns: ``(k,)`` their columns, not near `first` and `last` unless the photo ends there.
+            columns: ``(k,)`` their columns, not near `first` and `last` unless that is a rim.
             price: What an edge pixel pays for its score, and for all else that edge pixels pay.
             first: First column of the part of the photo that is asked for.
             last: Its last column.

@@ -259,6 +259,7 @@ class Detector:
             bank=bank,
         )
 
+
 def _edge_settings(config: DetectorConfig) -> tuple[object, ...]:
     """What `candidate_edges` depends on."""
     thresholds = (config.low_threshold, config.high_threshold, config.fit_thresholds)

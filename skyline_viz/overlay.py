@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import U8, check_photo, runs
-from skyline_viz.colours import ALTERNATIVE as ALTERNATIVE
-from skyline_viz.colours import HALO, PATH, TRUTH, Colour
+from skyline_viz.colours import ALTERNATIVE, HALO, PATH, TRUTH, Colour
 from skyline_viz.skyline import Skyline, SkylineError
+
+__all__ = ["ALTERNATIVE", "HALO", "PATH", "TRUTH", "Colour", "draw_overlay", "line_width"]
 
 _SUBPIXEL = 4
 """Binary digits behind the point of the coordinates that lines are drawn with."""
@@ -67,7 +68,9 @@ def _strokes(line: Skyline) -> Iterator[npt.NDArray[np.float64]]:
     """Points ``(m, 2)`` of (x, y) of each run of visible columns, pixel centres being whole."""
     for first, last in runs(line.visible):
         x = np.arange(first, last + 1, dtype=np.float64)
-        y = line.rows[first : last + 1].astype(np.float64) - 0.5  # the upper side of the terrain pixel
+        y = (
+            line.rows[first : last + 1].astype(np.float64) - 0.5
+        )  # the upper side of the terrain pixel
         ends = [x[0] - 0.5, *x, x[-1] + 0.5], [y[0], *y, y[-1]]
         yield np.column_stack(ends)
 

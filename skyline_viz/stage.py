@@ -51,6 +51,9 @@ class Quantity:
     group: str = ""
     """What it belongs to, as the parent of its path in a recording: ``tensor``, ``maps``."""
 
+    tabs: tuple[str, ...] = ("Stages",)
+    """Which tabs of the viewer show it: ``Stages``, ``Tensor``."""
+
     word: str = ""
     """What hovering a pixel shows before the value; the name unless given."""
 
@@ -119,8 +122,9 @@ STRENGTH = Quantity(
     low=0.0,
     about="Gradient strength (grey levels/px)",
     group="tensor",
+    tabs=("Stages", "Tensor"),
 )
-COHERENCE = Quantity("coherence", "viridis", low=0.0, high=1.0, group="tensor")
+COHERENCE = Quantity("coherence", low=0.0, high=1.0, group="tensor", tabs=("Tensor",))
 ORIENTATION = Quantity(
     "orientation",
     "twilight_shifted",
@@ -129,11 +133,15 @@ ORIENTATION = Quantity(
     high=180.0,
     about="Orientation of the gradient (degrees)",
     group="tensor",
+    tabs=("Tensor",),
 )
 BIN = Quantity(
-    "bin", "twilight_shifted", low=0.0, about="Bin: hue is orientation, brighter is stronger"
+    "bin",
+    "twilight_shifted",
+    about="Bin: hue is orientation, brighter is stronger",
+    tabs=("Tensor",),
 )
-SCORE = Quantity("score", "viridis", low=0.0, high=1.0, about="Score: bright like skyline")
+SCORE = Quantity("score", low=0.0, high=1.0, about="Score: bright like skyline")
 COST = Quantity(
     "cost",
     "magma_r",
@@ -142,5 +150,20 @@ COST = Quantity(
     about="Nodal cost: bright is cheap",
     word="nodal cost",
 )
-PATH = Quantity("path", unit=" px", about="Path: row of the skyline")
+PATH = Quantity("path", unit=" px", about="Path: row of the skyline", tabs=())
 DETOUR = Quantity("detour", "magma_r", " dearer than the path", (0.0, 0.88), 0.5, low=0.0)
+
+OURS = (EDGES, STRENGTH, COHERENCE, ORIENTATION, BIN, SCORE, COST)
+"""The stages of our detector that can be laid over the photo, in their order."""
+
+
+def of_term(name: str) -> Quantity:
+    """How a term of the nodal cost is shown as a map."""
+    return Quantity(
+        name,
+        "magma_r",
+        span=(0.0, 0.88),
+        about=f"What pixels pay: {name}",
+        group="terms",
+        tabs=("Terms",),
+    )

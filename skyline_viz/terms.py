@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, TypeAlias
 
 import cv2
 import numba
@@ -19,6 +19,9 @@ import numpy.typing as npt
 from skyline_viz.arrays import F32, F64, U8, Bool, Int
 from skyline_viz.edges import edge_index
 from skyline_viz.terrain import BLOCK, terrain_above
+
+Places: TypeAlias = npt.NDArray[np.integer]
+"""Rows or columns of pixels ``(k,)``."""
 
 CLEAR_SKY_ROWS = 3
 """Edge pixels this near above a pixel, in rows, do not count against it."""
@@ -68,14 +71,14 @@ class Term:
             self.add(cost)
         return cost
 
-    def at(self, rows: Int, columns: Int) -> F64:
+    def at(self, rows: Places, columns: Places) -> F64:
         """What pixels ``(k,)`` pay."""
         paid: F64 = self.map()[rows, columns].astype(np.float64)
         return paid
 
     def along(self, rows: Int) -> F64:
         """What a line ``(W,)`` pays in each column."""
-        return self.at(rows, np.arange(len(rows), dtype=np.int32))
+        return self.at(rows, np.arange(len(rows)))
 
     def answer(self, added: Bool) -> F32 | None:
         """What changes where there are more edges, besides at these pixels; None for nothing.
@@ -109,7 +112,7 @@ class EdgeTerm(Term):
         """See `Term.add`."""
         cost[self.edges] += self.of_edges()
 
-    def at(self, rows: Int, columns: Int) -> F64:
+    def at(self, rows: Places, columns: Places) -> F64:
         """See `Term.at`."""
         pixels = edge_index(self.edges)[rows, columns]
         paid: F64 = np.where(pixels >= 0, 1.0, 0.0)
@@ -127,7 +130,7 @@ class NoEdge(Term):
         """See `Term.add`."""
         cost[~self.edges] += np.float32(self.weight)
 
-    def at(self, rows: Int, columns: Int) -> F64:
+    def at(self, rows: Places, columns: Places) -> F64:
         """See `Term.at`."""
         return np.where(self.edges[rows, columns], 0.0, float(self.weight))
 
@@ -208,7 +211,7 @@ class GivenEdges(Term):
         """See `Term.add`."""
         cost[self.edges] += self.of_edges()
 
-    def at(self, rows: Int, columns: Int) -> F64:
+    def at(self, rows: Places, columns: Places) -> F64:
         """See `Term.at`."""
         rest = self.cost[rows, columns].astype(np.float64) - self.score.at(rows, columns)
         return np.where(self.edges[rows, columns], rest, 0.0)
@@ -227,7 +230,7 @@ class GivenOthers(Term):
         """See `Term.add`."""
         cost += np.where(self.edges, np.float32(0), self.cost)
 
-    def at(self, rows: Int, columns: Int) -> F64:
+    def at(self, rows: Places, columns: Places) -> F64:
         """See `Term.at`."""
         return np.where(self.edges[rows, columns], 0.0, self.cost[rows, columns].astype(np.float64))
 

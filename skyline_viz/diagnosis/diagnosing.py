@@ -187,8 +187,8 @@ def diagnose(detection: Detection, truth: Skyline, tolerance: float | None = Non
     Args:
         detection: The detection.
         truth: The true line.
-        tolerance: Error up to which a column is right, in pixels; `metrics.TOLERANCE`, scaled for photos
-            of more than 519 rows, unless given.
+        tolerance: Error up to which a column is right, in pixels; that of
+            `metrics.wrong_segments` unless given.
 
     Raises:
         SkylineError: The truth has another width than the photo, or is visible nowhere.

@@ -66,9 +66,7 @@ def settings_to_try(found: Detection) -> dict[str, DetectorConfig]:
     }
 
 
-def _other_weights(
-    config: DetectorConfig, setting: str, term: str
-) -> Iterator[tuple[str, float]]:
+def _other_weights(config: DetectorConfig, setting: str, term: str) -> Iterator[tuple[str, float]]:
     """Values to try of the setting that weighs a term, and what they are in words."""
     present, most = getattr(config, setting), most_of(setting)
     if most <= 1:
@@ -125,5 +123,3 @@ def _broken(new: tuple[int, int], runs: Sequence[tuple[int, int]]) -> bool:
     """Whether a run is new, or has grown by more than half."""
     before = sum(last - first + 1 for first, last in runs if first <= new[1] and new[0] <= last)
     return new[1] - new[0] + 1 > _GROWN * before
-
-

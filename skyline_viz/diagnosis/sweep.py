@@ -104,7 +104,9 @@ def _thresholds(found: FilterDetection) -> Sweep:
     """30 to 200 % of the thresholds that were used: as low as fitting lowers those of the paper."""
     steps = {}
     for percent in range(round(100 * LOWEST_FACTOR), 201, 10):
-        low, high = (min(one * (percent / 100), most_of("low_threshold")) for one in found.thresholds)
+        low, high = (
+            min(one * (percent / 100), most_of("low_threshold")) for one in found.thresholds
+        )
         config = replace(found.config, fit_thresholds=False, low_threshold=low, high_threshold=high)
         steps[percent] = f"{low:.4g} and {high:.4g}", Detector(found.bank, config)
     return Sweep(

@@ -8,12 +8,11 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 import rerun as rr
-from matplotlib import colormaps
 
 from skyline_viz.arrays import F64, runs
+from skyline_viz.colours import HALO, Colour, coloured
 from skyline_viz.detection import Detection
 from skyline_viz.evaluation.metrics import column_errors
-from skyline_viz.overlay import HALO, Colour
 from skyline_viz.skyline import Skyline
 from skyline_viz.viewer import entities
 
@@ -148,7 +147,7 @@ def _log_strip(
 
 @lru_cache(maxsize=2)
 def _strip_legend(words: tuple[str, ...]) -> rr.AnnotationContext:
-    colours = colormaps["inferno"](np.linspace(0.15, 0.95, len(words)), bytes=True).tolist()
+    colours = coloured("inferno", np.linspace(0.15, 0.95, len(words))).tolist()
     infos = [rr.AnnotationInfo(0, "", (0, 0, 0, 0))]
     for word, colour in zip(words, colours, strict=True):
         infos.append(rr.AnnotationInfo(len(infos), word, tuple(colour)))

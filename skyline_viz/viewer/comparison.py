@@ -5,16 +5,17 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
+from skyline_viz.colours import ALTERNATIVE
 from skyline_viz.detection import Detection
 from skyline_viz.evaluation.metrics import TOLERANCE, scaled, wrong_segments
 from skyline_viz.evaluation.verdict import Verdict
-from skyline_viz.overlay import ALTERNATIVE
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.names import named_in_markdown
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import ALTERNATIVE_RADIUS, curve, log_line
+from skyline_viz.viewer.contents import Fidelity
 from skyline_viz.viewer.documents import markdown_document
-from skyline_viz.viewer.recording import Fidelity, log_detection
+from skyline_viz.viewer.recording import log_detection
 from skyline_viz.viewer.report import listed_segments
 
 _DIFFERENCE = (0xAA, 0x8E, 0x0A)  # the yellow of the second line, as dark as areas need it

@@ -10,7 +10,8 @@ import skyline_viz as sv
 from skyline_viz.command_line.inputs import collect
 from skyline_viz.commands.gallery import list_flags
 from skyline_viz.datasets.layouts import DatasetItem
-from skyline_viz.gallery.store import VERSION, Entry, Flag, Gallery, GalleryError, Shot, by_need
+from skyline_viz.datasets.named_item import NamedItem
+from skyline_viz.gallery.store import VERSION, Entry, Flag, Gallery, GalleryError, by_need
 from skyline_viz.running.batch import Failure
 from skyline_viz.viewer import entities
 from testing.recordings import Read, verify
@@ -38,7 +39,7 @@ def build(gallery, folder, detector=None):
     """Outcomes, and the names of the recordings that were written."""
     recordings = gallery.folder / "recordings"
     before = {path: path.stat().st_mtime_ns for path in recordings.glob("*.rrd")}
-    shots = [Shot(one.name, one.item) for one in collect([folder])]
+    shots = collect([folder])
     outcomes = list(gallery.build(shots, detector or sv.Detector(), workers=1))
     after = {path: path.stat().st_mtime_ns for path in recordings.glob("*.rrd")}
     return outcomes, sorted(path.stem for path in after if after[path] != before.get(path))
@@ -109,7 +110,7 @@ def test_nothing_is_done_twice(photos, tmp_path):
 def test_memory_does_not_grow_with_the_number_of_photos(tmp_path):
     photo = np.random.default_rng(0).integers(0, 255, (300, 400, 3)).astype(np.uint8)
     sv.write_photo(tmp_path / "a.png", photo)
-    shots = [Shot(f"p{number}", DatasetItem("a", tmp_path / "a.png")) for number in range(120)]
+    shots = [NamedItem(f"p{number}", DatasetItem("a", tmp_path / "a.png")) for number in range(120)]
     outcomes = Gallery(tmp_path / "g").build(shots, sv.Detector(), workers=1)
     pages = [int(Path("/proc/self/statm").read_text().split()[1]) for _ in outcomes]
     assert (pages[-1] - pages[40]) * 4096 < 40e6  # each recording holds 2 MB before it is written
@@ -165,7 +166,7 @@ def test_a_lost_recording_is_made_again(photos, tmp_path):
 
 def test_a_run_that_is_cut_short_goes_on_where_it_stopped(photos, tmp_path):
     gallery = Gallery(tmp_path / "g")
-    shots = [Shot(one.name, one.item) for one in collect([photos])]
+    shots = collect([photos])
     outcomes = gallery.build(shots, sv.Detector(), workers=1)
     next(outcomes)
     outcomes.close()
@@ -226,6 +227,6 @@ def test_an_index_with_unknown_fields_is_damaged(tmp_path):
 
 def test_items_can_be_put_in_by_hand(tmp_path):
     sv.write_photo(tmp_path / "a.png", scene(20))
-    shot = Shot("mine", DatasetItem("a", Path(tmp_path / "a.png")))
+    shot = NamedItem("mine", DatasetItem("a", Path(tmp_path / "a.png")))
     (entry,) = Gallery(tmp_path / "g").build([shot], sv.Detector(), workers=1)
     assert (entry.name, entry.a_err) == ("mine", None)
