@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
+from skyline_viz.cost import CostModel, normalised
+from skyline_viz.terms import ClearSky, EdgeTerm, Link, NoEdge, add_blocks
 
 STEADY = settings(deadline=None, derandomize=True, max_examples=60)
 
@@ -15,7 +16,22 @@ def float32(*values):
 
 
 def cost_of(edges, at_edges, non_edge=2.0, clear_sky=0.0):
-    return nodal_cost(edges, at_edges, non_edge, clear_sky)
+    terms = (
+        EdgeTerm(name="score", weight=1.0, edges=edges, good=1 - at_edges),
+        NoEdge(name="no edge", weight=non_edge, edges=edges),
+        ClearSky(name="clear sky", weight=clear_sky, edges=edges),
+    )
+    return CostModel(nodal=terms, link=Link(weight=0.0, delta=1), edges=edges).total()
+
+
+def edge_cost(scores, strength, v):
+    edges = np.ones((1, len(scores)), bool)
+    terms = (
+        EdgeTerm(name="score", weight=v, edges=edges, good=scores),
+        EdgeTerm(name="strength", weight=1 - v, edges=edges, good=strength),
+        NoEdge(name="no edge", weight=2.0, edges=edges),
+    )
+    return CostModel(nodal=terms, link=Link(weight=0.0, delta=1), edges=edges).total()[0]
 
 
 def slow_clear_sky(edges, weight):

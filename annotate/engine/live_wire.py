@@ -28,9 +28,8 @@ from annotate.engine.plan import Plan, Run, Stale, make_plan
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
 from skyline_viz.constraints import Anchor, PathError, StraightSpan
 from skyline_viz.method import Method
-from skyline_viz.path import cheapest_end, sweep, trace
+from skyline_viz.path import APART, cheapest_end, column_margin, min_marginals, sweep, trace
 from skyline_viz.skyline import Skyline
-from skyline_viz.uncertainty import APART, column_margin
 
 _POOL = ThreadPoolExecutor(2, "sweep")
 
@@ -305,11 +304,8 @@ class LiveWire:
         return rows
 
     def _min_marginals(self, column: int) -> F64:
-        cost = self._allowed[column].astype(np.float64)
-        through: F64 = np.full(self.height, np.inf)
-        possible = np.isfinite(cost)
-        whole = self._forward[column] + self._backward[column]
-        np.subtract(whole, cost, out=through, where=possible)
+        through = np.empty(self.height)
+        min_marginals(self._forward[column], self._backward[column], self._allowed[column], through)
         return through
 
     def _repaint(self, plan: Plan) -> tuple[int, int] | None:
@@ -362,12 +358,7 @@ def _measure(
     columns: F32, forward: F64, backward: F64, first: int, stop: int, apart: int, margins: F64
 ) -> None:
     """Margins of the columns from `first` up to, not including, `stop`."""
-    height = columns.shape[1]
-    through = np.empty(height)
+    through = np.empty(columns.shape[1])
     for column in range(first, stop):
-        for row in range(height):
-            cost = columns[column, row]
-            through[row] = forward[column, row] + backward[column, row] - cost
-            if np.isinf(cost):
-                through[row] = np.inf
+        min_marginals(forward[column], backward[column], columns[column], through)
         margins[column] = column_margin(through, apart)

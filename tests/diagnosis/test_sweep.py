@@ -14,7 +14,9 @@ from skyline_viz.viewer.sweep_recording import log_sweeps
 from testing.recordings import Read, verify
 from tests.viewer.test_recording import scene
 
-SETTINGS = ("canny_thresholds", "v", "delta", "link_weight")
+SETTINGS = (
+    "canny_thresholds", "v", "non_edge_cost", "clear_sky", "terrain_weight", "link_weight", "delta",
+)
 CONFIGS = {
     "default": DetectorConfig(),
     "paper": DetectorConfig.paper(),
@@ -79,7 +81,11 @@ def test_every_value_gives_what_a_detection_of_its_own_gives(found, number):
 
 
 def test_the_values_around_the_defaults(found):
-    thresholds, v, delta, link_weight = setting_sweeps(found[0])
+    sweeps = {sweep.timeline: sweep for sweep in setting_sweeps(found[0])}
+    thresholds, v, clear_sky, link_weight, delta = (
+        sweeps[name] for name in ("canny_thresholds", "v", "clear_sky", "link_weight", "delta")
+    )
+    assert [step.at for step in clear_sky.steps] == list(range(0, 91, 6))
     assert [step.at for step in thresholds.steps] == list(range(30, 201, 10))
     assert [step.at for step in v.steps] == list(range(0, 101, 5))
     assert [step.at for step in delta.steps] == list(range(1, 13))
@@ -96,8 +102,9 @@ def test_only_one_setting_changes(found):
 
 
 def test_stages_that_a_setting_leaves_are_not_computed_again(found):
-    _, v, delta, link_weight = setting_sweeps(found[0])
-    for sweep in (delta, link_weight):
+    sweeps = setting_sweeps(found[0])
+    v = sweeps[1]
+    for sweep in sweeps[-2:]:
         for _, detection in sweep.detections(found[0]):
             assert detection.cost is found[0].cost
             assert [stage for stage, took in detection.seconds.items() if took] == ["path"]

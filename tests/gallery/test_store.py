@@ -11,6 +11,7 @@ from skyline_viz.command_line.inputs import collect
 from skyline_viz.commands.gallery import list_flags
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
+from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.gallery.store import VERSION, Entry, Flag, Gallery, GalleryError, by_need
 from skyline_viz.running.batch import Failure
 from skyline_viz.viewer import entities
@@ -53,7 +54,7 @@ def test_a_gallery_holds_a_whole_recording_and_an_entry_a_photo(photos, tmp_path
     for entry in outcomes:
         verify(gallery.recording(entry.name))
         read = Read(gallery.recording(entry.name))
-        assert read.array("metrics/a_err", "scalars") == pytest.approx([entry.a_err])
+        assert read.array("metrics/a_err", "scalars") == pytest.approx([entry.verdict.a_err])
     assert [one.name for one in by_need(outcomes)] == ["p1", "p2", "p0"]
     assert [one.a_err for one in by_need(outcomes)] == pytest.approx([9, 2, 0])
     assert by_need(outcomes)[0].wrong == "0 to 69"
@@ -196,10 +197,8 @@ def test_photos_that_are_gone_leave_the_gallery_but_not_the_reviews(photos, tmp_
 
 def test_without_a_truth_the_least_sure_come_first():
     entries = [
-        Entry("a", "", "", margin=3.0, unsure_column=0),
-        Entry("b", "", "", margin=0.5, unsure_column=0),
-        Entry("c", "", "", margin=9.0, unsure_column=0, a_err=0.1),
-        Entry("d", "", "", margin=9.0, unsure_column=0, a_err=7.0),
+        Entry(name, "", "", Verdict(a_err, None, None, None, None, margin, 0))
+        for name, margin, a_err in (("a", 3, None), ("b", 0.5, None), ("c", 9, 0.1), ("d", 9, 7))
     ]
     assert [one.name for one in by_need(entries)] == ["d", "c", "b", "a"]
 
@@ -229,4 +228,4 @@ def test_items_can_be_put_in_by_hand(tmp_path):
     sv.write_photo(tmp_path / "a.png", scene(20))
     shot = NamedItem("mine", DatasetItem("a", Path(tmp_path / "a.png")))
     (entry,) = Gallery(tmp_path / "g").build([shot], sv.Detector(), workers=1)
-    assert (entry.name, entry.a_err) == ("mine", None)
+    assert (entry.name, entry.verdict.a_err) == ("mine", None)
