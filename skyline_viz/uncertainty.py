@@ -77,8 +77,7 @@ def _sweep_back(
     after = np.zeros(height)
     through = np.empty(height)
     for column in range(width - 1, -1, -1):
-        if column < width - 1:
-            cross(before, reach, link_weight, after)
+        cross(before, reach, link_weight, after)  # beyond the last column nothing costs anything
         for row in range(height):
             through[row] = forward[column, row] + after[row]
             detour[column, row] = max(through[row] - best_cost, 0.0)

@@ -27,6 +27,7 @@ from annotate.engine.edits import ORIGINS, Edits, paint
 from annotate.engine.plan import Plan, Run, Stale, make_plan
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
 from skyline_viz.constraints import Anchor, PathError, StraightSpan
+from skyline_viz.detection import Detection
 from skyline_viz.method import Method
 from skyline_viz.path import APART, cheapest_end, column_margin, min_marginals, sweep, trace
 from skyline_viz.skyline import Skyline
@@ -58,18 +59,21 @@ class LiveWire:
     20.0
     """
 
-    def __init__(self, photo: U8, detector: Method | None) -> None:
+    def __init__(self, photo: U8, detector: Method | None, *, keep: bool = False) -> None:
         """Find the proposal.
 
         Args:
             photo: ``(H, W, 3)`` uint8 RGB.
             detector: What proposes; None to label blind: nothing is proposed and nothing solved,
                 and anchors are joined by straight lines.
+            keep: Whether `detection` stays, for whoever shows the stages of the photo.
         """
         check_photo(photo)
         self.height, self.width = photo.shape[:2]
         self.blind = detector is None
         self.proposal: Skyline | None = None
+        self.detection: Detection | None = None
+        """What the proposal is from, where it was to be kept."""
         if detector is None:
             cost, self._delta, self._link_weight = np.zeros((self.height, 0), np.float32), 0, 0.0
             forward = np.zeros((0, self.height))
@@ -79,6 +83,7 @@ class LiveWire:
             self.proposal = detection.skyline
             self._delta = min(detection.delta, self.height - 1)
             self._link_weight = float(detection.link_weight)
+            self.detection = detection if keep else None
             del detection  # its other planes, before these two are copied
         self._cost: F32 = np.ascontiguousarray(cost.T)
         del cost

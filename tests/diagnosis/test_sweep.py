@@ -15,7 +15,13 @@ from testing.recordings import Read, verify
 from tests.viewer.test_recording import scene
 
 SETTINGS = (
-    "canny_thresholds", "v", "non_edge_cost", "clear_sky", "terrain_weight", "link_weight", "delta",
+    "canny_thresholds",
+    "v",
+    "non_edge_cost",
+    "clear_sky",
+    "terrain_weight",
+    "link_weight",
+    "delta",
 )
 CONFIGS = {
     "default": DetectorConfig(),

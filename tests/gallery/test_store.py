@@ -56,7 +56,7 @@ def test_a_gallery_holds_a_whole_recording_and_an_entry_a_photo(photos, tmp_path
         read = Read(gallery.recording(entry.name))
         assert read.array("metrics/a_err", "scalars") == pytest.approx([entry.verdict.a_err])
     assert [one.name for one in by_need(outcomes)] == ["p1", "p2", "p0"]
-    assert [one.a_err for one in by_need(outcomes)] == pytest.approx([9, 2, 0])
+    assert [one.verdict.a_err for one in by_need(outcomes)] == pytest.approx([9, 2, 0])
     assert by_need(outcomes)[0].wrong == "0 to 69"
 
 
