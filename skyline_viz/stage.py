@@ -163,7 +163,7 @@ def of_term(name: str) -> Quantity:
         name,
         "magma_r",
         span=(0.0, 0.88),
-        about=f"What pixels pay: {name}",
+        about=f"{name.capitalize()}: bright is cheap",
         group="terms",
         tabs=("Terms",),
     )
