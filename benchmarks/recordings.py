@@ -11,7 +11,7 @@ from benchmarks.table import markdown
 from skyline_viz import Detector, log_detection, new_recording, open_dataset, write_photo
 from skyline_viz.rendering import sample_scenes
 from skyline_viz.running.warming import warm_up
-from skyline_viz.viewer.recording import Fidelity
+from skyline_viz.viewer.contents import Fidelity
 
 GALLERIES = (250, 1000)
 """Numbers of photos of the galleries whose memory is compared."""
@@ -21,8 +21,8 @@ import resource, sys
 from pathlib import Path
 from skyline_viz import Detector
 from skyline_viz.command_line.inputs import collect
-from skyline_viz.gallery.store import Gallery, Shot
-shots = [Shot(one.name, one.item) for one in collect([Path(sys.argv[1])])][:int(sys.argv[2])]
+from skyline_viz.gallery.store import Gallery
+shots = collect([Path(sys.argv[1])])[:int(sys.argv[2])]
 done = sum(1 for _ in Gallery(Path(sys.argv[3])).build(shots, Detector(), workers=1))
 status = Path("/proc/self/status").read_text()
 print(done, status.split("VmHWM:")[1].split()[0])

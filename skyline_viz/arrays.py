@@ -34,3 +34,23 @@ def check_photo(photo: U8) -> None:
 def read_only(array: npt.NDArray[np.generic]) -> None:
     """Make `array` refuse writes, so that a frozen dataclass is frozen all the way down."""
     array.setflags(write=False)
+
+
+def runs(mask: Bool, gap: int = 0) -> list[tuple[int, int]]:
+    """First and last place of each run of True in a mask ``(W,)``.
+
+    >>> runs(np.array([True, True, False, True, False, False, True]))
+    [(0, 1), (3, 3), (6, 6)]
+    >>> runs(np.array([True, True, False, True, False, False, True]), gap=1)
+    [(0, 3), (6, 6)]
+
+    Args:
+        mask: ``(W,)``.
+        gap: At most so many False do not end a run.
+    """
+    places = np.flatnonzero(mask)
+    if len(places) == 0:
+        return []
+    breaks = np.flatnonzero(np.diff(places) > gap + 1)
+    firsts, lasts = places[np.append(0, breaks + 1)], places[np.append(breaks, -1)]
+    return list(zip(firsts.tolist(), lasts.tolist(), strict=True))

@@ -82,6 +82,30 @@ class Bins:
         orientation = turn.astype(np.int32) % self.orientations
         return (coherence * self.strengths + strength) * self.orientations + orientation
 
+    def label(self, index: int) -> str:
+        """What a bin stands for, in words.
+
+        >>> Bins().label(143)
+        'bin 143: coherence 0.4 to 0.8, strength 112 to 148, orientation 163 to 174°'
+        """
+        row, orientation = divmod(index, self.orientations)
+        coherence, strength = divmod(row, self.strengths)
+        step = 180.0 / self.orientations
+        first = ((orientation - 0.5) * step) % 180.0
+        last = ((orientation + 0.5) * step) % 180.0
+        return (
+            f"bin {index}: coherence {self.coherence_label(coherence)}, "
+            f"strength {self.strength_label(strength)}, orientation {first:.0f} to {last:.0f}°"
+        )
+
+    def coherence_label(self, level: int) -> str:
+        """Coherences of a level, in words."""
+        return _range(level, self.coherences, 0.0, self.coherence_top)
+
+    def strength_label(self, level: int) -> str:
+        """Strengths of a level, in words."""
+        return _range(level, self.strengths, self.strength_offset, self.strength_range)
+
     def mirrored(self) -> npt.NDArray[np.intp]:
         """Bin ``(count,)`` into which each bin's pixels fall in the left-right flipped photo.
 
@@ -98,3 +122,14 @@ def _level(value: npt.NDArray[np.float32], levels: int) -> Int:
     if levels == 1:
         return np.zeros(value.shape, np.int32)
     return (np.clip(value, 0.0, 1.0) * (levels - 1)).astype(np.int32)
+
+
+def _range(level: int, levels: int, offset: float, span: float) -> str:
+    """Values that fall into a level, see `Bins.of`; the last one begins where the span ends."""
+    if levels == 1:
+        return "any"
+    step = span / (levels - 1)
+    first = 0.0 if level == 0 else offset + level * step
+    if level == levels - 1:
+        return f"{first:.3g} and more"
+    return f"{first:.3g} to {offset + (level + 1) * step:.3g}"

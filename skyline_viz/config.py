@@ -1,6 +1,6 @@
 """What can be chosen, with units and the reasons for the defaults. Light to import."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from numbers import Integral, Real
 from typing import Literal, TypeAlias
 
@@ -56,7 +56,7 @@ class DetectorConfig:
 
     def __post_init__(self) -> None:
         """Refuse values outside their range with a sentence that names the field."""
-        for name, low, high in _RANGES:
+        for name, (low, high) in RANGES.items():
             _check_number(name, getattr(self, name), low, high, whole=name in ("frame", "delta"))
         if not isinstance(self.fit_thresholds, bool):
             raise ValueError(f"fit_thresholds is True or False, not {self.fit_thresholds!r}")
@@ -64,6 +64,19 @@ class DetectorConfig:
             raise ValueError(f"edge_source is 'grey' or 'colour', not {self.edge_source!r}")
         if self.low_threshold > self.high_threshold:
             raise ValueError("low_threshold is at most high_threshold")
+
+    def changed(self) -> list[str]:
+        """Settings that differ from the defaults, in words.
+
+        >>> DetectorConfig(delta=1).changed()
+        ['delta 1']
+        """
+        default = type(self)()
+        return [
+            f"{one.name} {getattr(self, one.name)}"
+            for one in fields(self)
+            if getattr(self, one.name) != getattr(default, one.name)
+        ]
 
     @classmethod
     def paper(cls) -> "DetectorConfig":
@@ -85,18 +98,19 @@ class DetectorConfig:
         )
 
 
-_RANGES: tuple[tuple[str, float, float], ...] = (
-    ("low_threshold", 0, 1e5),
-    ("high_threshold", 0, 1e5),
-    ("frame", 0, 1e4),
-    ("v", 0, 1),
-    ("strength_percentile", 1, 100),
-    ("non_edge_cost", 0, 1e6),
-    ("clear_sky", 0, 1e3),
-    ("terrain_weight", 0, 1e3),
-    ("delta", 0, 1e5),
-    ("link_weight", 0, 1e6),
-)
+RANGES: dict[str, tuple[float, float]] = {
+    "low_threshold": (0, 1e5),
+    "high_threshold": (0, 1e5),
+    "frame": (0, 1e4),
+    "v": (0, 1),
+    "strength_percentile": (1, 100),
+    "non_edge_cost": (0, 1e6),
+    "clear_sky": (0, 1e3),
+    "terrain_weight": (0, 1e3),
+    "delta": (0, 1e5),
+    "link_weight": (0, 1e6),
+}
+"""Smallest and largest value of each number of `DetectorConfig`."""
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,285 @@
-"""Stage 5, cost: scores and gradient strength fused into the nodal cost of every pixel."""
+"""Stage 5, cost: what stage 1 to 4 have seen, fused into the nodal cost of every pixel.
+
+The cost is a sum of terms, each with a weight. `TERMS` lists them: a new term is an entry there,
+and is then shown, explained, swept and tried as a remedy like the others. ``docs/extend.md`` says
+how.
+
+==========  ===========================  ==========================================================
+term        who pays                     what
+==========  ===========================  ==========================================================
+score       edge pixels                  ``v (1 - score)``
+strength    edge pixels                  ``(1 - v) (1 - strength)``
+no edge     all other pixels             a constant
+clear sky   pixels below edges (ours)    for each edge above, see `terms.ClearSky`
+terrain     all pixels (ours)            for what looks like terrain above, see `terms.Terrain`
+link        a line                       for each change of row, see `terms.Link`
+==========  ===========================  ==========================================================
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import reduce
 
 import cv2
-import numba
 import numpy as np
+import numpy.typing as npt
 
-from skyline_viz.arrays import F32, U8, Bool, Int
+from skyline_viz.arrays import F32, F64, U8, Bool, Int, read_only
+from skyline_viz.config import DetectorConfig
+from skyline_viz.filter_bank import FilterBank
+from skyline_viz.terms import (
+    ClearSky,
+    EdgeTerm,
+    GivenEdges,
+    GivenOthers,
+    Link,
+    NoEdge,
+    Places,
+    Term,
+    Terrain,
+)
 
-CLEAR_SKY_ROWS = 3
-"""Edge pixels this near above a pixel, in rows, do not count against it."""
 
-CLEAR_SKY_COLUMNS = 9
-"""Columns over which the edge pixels above a pixel are averaged."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Seen:
+    """What the stages before have seen of a photo: what terms are made from."""
+
+    photo: U8
+    """``(H, W, 3)`` uint8 RGB."""
+
+    edges: Bool
+    """``(H, W)`` edge map."""
+
+    strength: F32
+    """``(n,)`` gradient strength of the edge pixels, row by row, in grey levels a pixel."""
+
+    scores: F32
+    """``(n,)`` their scores, in [0, 1]."""
+
+    config: DetectorConfig
+    """The settings, which hold the weights."""
+
+    bank: FilterBank
+    """The filter bank, which holds the sky or terrain model."""
+
+
+def score(seen: Seen) -> EdgeTerm:
+    """What edge pixels pay for looking unlike a skyline."""
+    weight = seen.config.v
+    return EdgeTerm(
+        name="score",
+        weight=weight,
+        setting="v",
+        colour="#56B4E9",
+        edges=seen.edges,
+        good=seen.scores,
+    )
+
+
+def strength(seen: Seen) -> EdgeTerm:
+    """What edge pixels pay for a weak gradient."""
+    config = seen.config
+    good = normalised(seen.strength, config.strength_percentile)
+    read_only(good)
+    return EdgeTerm(
+        name="strength",
+        weight=1 - config.v,
+        setting="v",
+        colour="#0072B2",
+        edges=seen.edges,
+        good=good,
+    )
+
+
+def no_edge(seen: Seen) -> NoEdge:
+    """What pixels without an edge pay."""
+    return NoEdge(
+        name="no edge",
+        weight=seen.config.non_edge_cost,
+        setting="non_edge_cost",
+        colour="#E69F00",
+        edges=seen.edges,
+    )
+
+
+def clear_sky(seen: Seen) -> ClearSky:
+    """What pixels pay for the edges above them."""
+    return ClearSky(
+        name="clear sky",
+        weight=seen.config.clear_sky,
+        setting="clear_sky",
+        colour="#CC79A7",
+        edges=seen.edges,
+    )
+
+
+def terrain(seen: Seen) -> Terrain:
+    """What pixels pay for what looks like terrain above them."""
+    return Terrain(
+        name="terrain",
+        weight=seen.config.terrain_weight if len(seen.scores) else 0.0,  # else all is a guess
+        setting="terrain_weight",
+        colour="#009E73",
+        edges=seen.edges,
+        photo=seen.photo,
+        model=seen.bank.terrain,
+    )
+
+
+TERMS: tuple[Callable[[Seen], Term], ...] = (score, strength, no_edge, clear_sky, terrain)
+"""The terms of our detector, in the order in which they are added up and shown."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CostModel:
+    """What pixels and lines of a photo pay, and for what.
+
+    The one place that knows the formula: it builds the nodal cost, splits what a line pays by
+    term, and says what would change with more edges or better scores.
+    """
+
+    nodal: tuple[Term, ...]
+    """The terms of the nodal cost; one is called ``score`` and one ``no edge``."""
+
+    link: Link
+    """The link cost."""
+
+    edges: Bool
+    """``(H, W)`` edge map."""
+
+    rules_out: bool = False
+    """Whether pixels as dear as those without an edge are no nodes at all."""
+
+    @classmethod
+    def of(cls, seen: Seen) -> CostModel:
+        """The model of our detector: all `TERMS`."""
+        config = seen.config
+        return cls(
+            nodal=tuple(make(seen) for make in TERMS),
+            link=Link(weight=config.link_weight, delta=config.delta),
+            edges=seen.edges,
+        )
+
+    @classmethod
+    def given(
+        cls,
+        cost: F32,
+        edges: Bool,
+        scores: F32,
+        *,
+        score_weight: float,
+        non_edge_cost: float,
+        link: Link,
+    ) -> CostModel:
+        """The model of another method, of which the nodal costs are known as they are.
+
+        Args:
+            cost: ``(H, W)`` nodal costs.
+            edges: ``(H, W)`` candidate pixels.
+            scores: ``(n,)`` their scores, in [0, 1].
+            score_weight: What a score of 0 costs more than one of 1.
+            non_edge_cost: From which cost on a pixel is no node, unless all are candidates.
+            link: The link cost.
+        """
+        by_score = EdgeTerm(
+            name="score", weight=score_weight, colour="#56B4E9", edges=edges, good=scores
+        )
+        rest = GivenEdges(
+            name="edge", weight=1.0, colour="#0072B2", edges=edges, cost=cost, score=by_score
+        )
+        others = GivenOthers(
+            name="no edge", weight=non_edge_cost, colour="#E69F00", edges=edges, cost=cost
+        )
+        nodal = (by_score, rest, others)
+        return cls(nodal=nodal, link=link, edges=edges, rules_out=not edges.all())
+
+    @property
+    def terms(self) -> tuple[Term | Link, ...]:
+        """All terms, that of the link cost last."""
+        return (*self.nodal, self.link)
+
+    @property
+    def settings(self) -> tuple[str, ...]:
+        """The fields of `DetectorConfig` that weigh the terms, each once."""
+        return tuple(dict.fromkeys(term.setting for term in self.terms if term.setting))
+
+    def __getitem__(self, name: str) -> Term:
+        """The term of the nodal cost with a name."""
+        return next(term for term in self.nodal if term.name == name)
+
+    def total(self) -> F32:
+        """Nodal cost of every pixel, ``(H, W)`` float32: a transposed view.
+
+        The path search goes down columns, so a column lies together in memory.
+        """
+        across = np.full(self.edges.shape, self["no edge"].weight, np.float32)
+        # thrice as fast as across[edges]
+        across.ravel()[np.flatnonzero(self.edges)] = self._of_edges()
+        cost: F32 = cv2.transpose(across).T  # by tiles: numpy's own copy misses the cache
+        for term in self.nodal:
+            if term.paid_by == "all" and term.weight:
+                term.add(cost)
+        return cost
+
+    def split(self, rows: Int) -> dict[str, F64]:
+        """What a line ``(W,)`` pays in each column, term by term; their sum is what it costs."""
+        return {term.name: term.along(rows) for term in self.terms}
+
+    def shown(self, cost: F32) -> F32:
+        """``(H, W)`` nodal costs to look at: NaN where the method rules pixels out."""
+        if not self.rules_out:
+            return cost
+        shown: F32 = np.where(cost >= self["no edge"].weight, np.float32(np.nan), cost)
+        return shown
+
+    @property
+    def edge_rest(self) -> F64:
+        """``(n,)`` what each edge pixel pays besides its score, wherever in the photo it is."""
+        rest: F64 = self._of_edges(without="score").astype(np.float64)
+        return rest
+
+    def more_edges(self, rows: Places, columns: Places, price: float, first: int, last: int) -> F64:
+        """What changes if some pixels without an edge had one.
+
+        Args:
+            rows: ``(k,)`` their rows.
+            columns: ``(k,)`` their columns, not near `first` and `last` unless that is a rim.
+            price: What an edge pixel pays for its score, and for all else that edge pixels pay.
+            first: First column of the part of the photo that is asked for.
+            last: Its last column.
+
+        Returns:
+            ``(last - first + 1, H)`` change of the nodal costs, column by column.
+        """
+        added = np.zeros((len(self.edges), last - first + 1), np.bool_)
+        added[rows, columns - first] = True
+        change = np.zeros(added.shape[::-1])
+        for term in self.nodal:
+            answer = term.answer(added) if term.weight else None
+            if answer is not None:
+                change += answer.T
+        change[columns - first, rows] += price - self["no edge"].at(rows, columns)
+        return change
+
+    def saved(self, scores: F32, typical: float) -> F64:
+        """How much less pixels with some scores ``(k,)`` would cost with a typical one."""
+        saved: F64 = self["score"].weight * np.maximum(typical - scores.astype(np.float64), 0.0)
+        return saved
+
+    def searched(self, config: DetectorConfig) -> CostModel:
+        """The same nodal costs, searched with the ``delta`` and link weight of a configuration."""
+        return replace(self, link=Link(weight=config.link_weight, delta=config.delta))
+
+    def _of_edges(self, *, without: str = "") -> npt.NDArray[np.floating]:
+        """``(n,)`` what edge pixels alone pay."""
+        paid = [
+            term.of_edges()
+            for term in self.nodal
+            if term.paid_by == "edges" and term.name != without
+        ]
+        return reduce(np.add, paid)
 
 
 def normalised(strength: F32, percentile: float) -> F32:
@@ -19,102 +288,3 @@ def normalised(strength: F32, percentile: float) -> F32:
         return strength
     top = np.percentile(strength, percentile)
     return np.clip(strength, 0.0, top) / top if top > 0 else np.zeros_like(strength)
-
-
-def edge_cost(scores: F32, strength: F32, v: float) -> F32:
-    """Nodal cost of edge pixels, the last equation of the paper.
-
-    ``v (1 - score) + (1 - v) (1 - strength)``
-
-    Args:
-        scores: ``(n,)`` in [0, 1].
-        strength: ``(n,)`` in [0, 1], see `normalised`.
-        v: Weight of the score, in [0, 1].
-    """
-    cost: F32 = np.float32(v) * (1 - scores) + np.float32(1 - v) * (1 - strength)
-    return cost
-
-
-def nodal_cost(edges: Bool, at_edges: F32, non_edge: float, clear_sky: float) -> F32:
-    """Nodal cost of every pixel.
-
-    Args:
-        edges: ``(H, W)`` edge map.
-        at_edges: ``(n,)`` cost of the edge pixels, row by row.
-        non_edge: Cost of all other pixels.
-        clear_sky: What each edge pixel above a pixel in its column adds to its cost; nothing but
-            sky lies above a skyline.
-
-    Returns:
-        ``(H, W)`` float32, a transposed view: the path search goes down columns.
-    """
-    across = np.full(edges.shape, non_edge, np.float32)
-    across.ravel()[np.flatnonzero(edges)] = at_edges  # thrice as fast as across[edges]
-    cost: F32 = cv2.transpose(across)  # by tiles: numpy's own copy of a transpose misses the cache
-    if clear_sky > 0:
-        _add_clear_sky(cost, cv2.transpose(edges.view(np.uint8)), np.float32(clear_sky))
-    return cost.T
-
-
-def add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
-    """Add a weighted map of blocks to the nodal cost, in place, interpolated between centres.
-
-    Args:
-        cost: ``(H, W)`` as `nodal_cost` gives it.
-        blocks: ``(h, w)`` one value a block.
-        weight: Its weight.
-        side: Side of a block, in pixels.
-    """
-    _add_blocks(cost.T, np.ascontiguousarray(blocks.T), np.float32(weight), side)
-
-
-@numba.njit(cache=True, nogil=True)
-def _add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
-    """`add_blocks` with both arrays column by column, ``(W, H)`` and ``(w, h)``."""
-    width, height = cost.shape
-    left, right, sideways = _between_centres(width, blocks.shape[0], side)
-    above, below, downwards = _between_centres(height, blocks.shape[1], side)
-    line = np.empty(blocks.shape[1], np.float32)
-    for column in range(width):
-        here = blocks[left[column]]
-        there = blocks[right[column]]
-        for block in range(line.size):
-            line[block] = weight * (here[block] + sideways[column] * (there[block] - here[block]))
-        for row in range(height):
-            over = line[above[row]]
-            cost[column, row] += over + downwards[row] * (line[below[row]] - over)
-
-
-@numba.njit(cache=True, nogil=True)
-def _between_centres(length: int, blocks: int, side: int) -> tuple[Int, Int, F32]:
-    """For each pixel of an axis the blocks before and after it, and how far it is on the way."""
-    before = np.empty(length, np.int32)
-    after = np.empty(length, np.int32)
-    share = np.empty(length, np.float32)
-    for pixel in range(length):
-        place = min(max((pixel + 0.5) / side - 0.5, 0.0), blocks - 1.0)
-        before[pixel] = int(place)
-        after[pixel] = min(before[pixel] + 1, blocks - 1)
-        share[pixel] = place - before[pixel]
-    return before, after, share
-
-
-@numba.njit(cache=True, nogil=True)
-def _add_clear_sky(cost: F32, edges: U8, weight: float) -> None:
-    """Add the weighted number of edge pixels above, averaged over columns; both ``(W, H)``."""
-    width, height = cost.shape
-    half = CLEAR_SKY_COLUMNS // 2
-    window = np.zeros(height, np.int32)
-    for column in range(min(half, width)):
-        window += edges[column]
-    for column in range(width):
-        if column + half < width:
-            window += edges[column + half]
-        if column - half - 1 >= 0:
-            window -= edges[column - half - 1]
-        in_window = min(column + half, width - 1) - max(column - half, 0) + 1
-        step = weight / np.float32(in_window)
-        above = 0
-        for row in range(CLEAR_SKY_ROWS + 1, height):
-            above += window[row - CLEAR_SKY_ROWS - 1]
-            cost[column, row] += step * above

@@ -1,5 +1,7 @@
 """What a method found: a skyline, the candidate pixels that it chose from, and what they cost."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -8,12 +10,16 @@ from time import perf_counter
 from types import MappingProxyType
 
 import numpy as np
-import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, read_only
+from skyline_viz.config import DetectorConfig
+from skyline_viz.cost import CostModel
 from skyline_viz.edges import edge_pixels
+from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import shortest_path
 from skyline_viz.skyline import Skyline
+from skyline_viz.stage import COST, EDGES, PATH, SCORE, Quantity, Stage
+from skyline_viz.terms import Link
 from skyline_viz.uncertainty import Uncertainty, uncertainty
 
 
@@ -24,7 +30,7 @@ class Detection:
     Arrays ``(n,)`` run over the edge pixels: the pixels that a method takes for candidates, which
     are all pixels of the photo where it looks for no edges. A score says how much a pixel looks
     like skyline; an edge pixel costs ``score_weight (1 - score)``, and whatever else the method
-    adds.
+    adds: `cost_model` knows. Whoever shows a detection loops over `stages`.
     """
 
     method: str
@@ -60,20 +66,17 @@ class Detection:
     seconds: dict[str, float]
     """Seconds of each stage."""
 
-    delta: int
-    """Largest change of row between neighbouring columns, in pixels."""
+    cost_model: CostModel
+    """What pixels and lines pay, and for what."""
 
-    link_weight: float
-    """Link cost of one pixel of row change."""
+    config: DetectorConfig | None = None
+    """The configuration that was used; None of methods that have other settings."""
 
-    non_edge_cost: float
-    """Nodal cost of a pixel without an edge."""
+    bank: FilterBank | None = None
+    """The filter bank that was used; None of methods without one."""
 
-    score_weight: float = 1.0
-    """What a score of 0 costs more than one of 1."""
-
-    clear_sky: float = 0.0
-    """Cost that each edge pixel above a pixel adds to it."""
+    thresholds: tuple[float, float] | None = None
+    """Canny thresholds that were used; None of methods that have them fixed, or none."""
 
     maps: Mapping[str, F32] = field(default_factory=lambda: MappingProxyType({}))
     """Further maps ``(H, W)`` that the method made, by name: its own stages."""
@@ -89,26 +92,54 @@ class Detection:
         """``(n,)`` edge pixels whose score was learned from too little."""
         return np.zeros(len(self.scores), np.bool_)
 
-    @cached_property
-    def edge_rest(self) -> F64:
-        """``(n,)`` what each edge pixel costs besides its score, wherever in the photo it is."""
-        at_edges = self.cost[self.edge_rows, self.edge_columns].astype(np.float64)
-        return at_edges - self.score_weight * (1 - self.scores.astype(np.float64))
-
-    def no_edge_costs(self, rows: Int, columns: npt.NDArray[np.integer]) -> F64:
-        """What pixels ``(k,)`` pay for having no edge, as far as they have none."""
-        costs: F64 = self.cost[rows, columns].astype(np.float64)
-        return costs
+    @property
+    def delta(self) -> int:
+        """Largest change of row between neighbouring columns, in pixels."""
+        return self.cost_model.link.delta
 
     @property
-    def shown_cost(self) -> F32:
-        """``(H, W)`` nodal costs to look at: NaN where the method rules pixels out.
+    def link_weight(self) -> float:
+        """Link cost of one pixel of row change."""
+        return self.cost_model.link.weight
 
-        Where all pixels are candidates, none is, however dear it is.
+    @property
+    def score_weight(self) -> float:
+        """What a score of 0 costs more than one of 1."""
+        return self.cost_model["score"].weight
+
+    @property
+    def non_edge_cost(self) -> float:
+        """Nodal cost of a pixel without an edge."""
+        return self.cost_model["no edge"].weight
+
+    @property
+    def stages(self) -> Mapping[str, Stage]:
+        """The stages by name, in the order in which they were made; read-only."""
+        return MappingProxyType({one.name: one for one in self._stages()})
+
+    def _stages(self) -> Iterator[Stage]:
+        yield Stage(EDGES, self.edges, "mask")
+        yield Stage(SCORE, self.scores, "edges")
+        for name, values in self.maps.items():
+            yield Stage(Quantity(name, group="maps"), values, "photo")
+        yield from self._last_stages()
+
+    def _last_stages(self) -> Iterator[Stage]:
+        shown = self.cost_model.shown(self.cost)
+        yield Stage(COST, shown, "photo")
+        yield Stage(PATH, self.skyline.rows, "columns")
+
+    def again(self, config: DetectorConfig) -> Detection:
+        """Find the skyline of the same photo with other settings, see `Detector.again`.
+
+        Raises:
+            ValueError: The method has other settings than ours.
         """
-        ruled_out = (self.cost >= self.non_edge_cost) & (not self.edges.all())
-        shown: F32 = np.where(ruled_out, np.float32(np.nan), self.cost)
-        return shown
+        raise ValueError(f"{self.method} has other settings than {type(config).__name__}.")
+
+    def about(self) -> list[str]:
+        """How it was made, in short sentences."""
+        return [f"Method {self.method}."]
 
     def uncertainty(self) -> Uncertainty:
         """How sure the path is: margins and detours. Takes one more path search."""
@@ -168,10 +199,14 @@ def solve_detection(
         path_cost=path.cost,
         forward=path.forward,
         seconds=seconds,
-        delta=delta,
-        link_weight=link_weight,
-        non_edge_cost=non_edge_cost,
-        score_weight=score_weight,
+        cost_model=CostModel.given(
+            cost,
+            edges,
+            scores,
+            score_weight=score_weight,
+            non_edge_cost=non_edge_cost,
+            link=Link(weight=link_weight, delta=delta),
+        ),
         maps=MappingProxyType(dict(maps or {})),
     )
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import TypedDict
+from functools import cache, cached_property, lru_cache, partial
 
 import numpy as np
-import numpy.typing as npt
 
-from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
+from skyline_viz.arrays import F32, U8, Bool, Int, check_photo
+from skyline_viz.bins import Bins
+from skyline_viz.colours import Colour, coloured
 from skyline_viz.config import DetectorConfig, TrainingConfig
-from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
+from skyline_viz.cost import CostModel, Seen
 from skyline_viz.datasets.item import Item
 from skyline_viz.detection import Detection, timed
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
@@ -20,8 +20,8 @@ from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
-from skyline_viz.tensor import tensor_at
-from skyline_viz.terrain import BLOCK, terrain_above
+from skyline_viz.stage import BIN, COHERENCE, EDGES, ORIENTATION, SCORE, STRENGTH, Stage
+from skyline_viz.tensor import tensor_at, tensor_map
 from skyline_viz.training import GramMatrices, gather_item, solve, train
 
 
@@ -56,21 +56,53 @@ class FilterDetection(Detection):
         starved: Bool = self.bank.starved[self.bins]
         return starved
 
-    @cached_property
-    def edge_rest(self) -> F64:
-        """``(n,)`` what the gradient strength of each edge pixel costs."""
-        strength = normalised(self.strength, self.config.strength_percentile)
-        return (1 - self.config.v) * (1 - strength.astype(np.float64))
+    def _stages(self) -> Iterator[Stage]:
+        whole = cache(partial(tensor_map, self.photo))  # one for all three
+        yield Stage(EDGES, self.edges, "mask")
+        for quantity in (STRENGTH, COHERENCE, ORIENTATION):
+            name = quantity.name
+            yield Stage(
+                quantity,
+                getattr(self, name),
+                "edges",
+                dense=lambda name=name: getattr(whole(), name),  # type: ignore[misc]  # default
+            )
+        yield Stage(BIN, self.bins, "edges", legend=bin_legend(self.bank.bins))
+        yield Stage(SCORE, self.scores, "edges")
+        yield from self._last_stages()
 
-    @property
-    def shown_cost(self) -> F32:
-        """``(H, W)`` nodal costs; no pixel is ruled out."""
-        return self.cost
+    def again(self, config: DetectorConfig) -> FilterDetection:
+        """See `Detector.again`."""
+        return Detector(self.bank, config).again(self)
 
-    def no_edge_costs(self, rows: Int, columns: npt.NDArray[np.integer]) -> F64:
-        """What pixels ``(k,)`` pay for having no edge; terrain and clear sky are not in it."""
-        del columns
-        return np.full(len(rows), self.non_edge_cost)
+    def about(self) -> list[str]:
+        """How it was made, in short sentences: settings, and where the filters are from."""
+        if self.config == DetectorConfig.paper():
+            settings = "the paper's settings"
+        else:
+            settings = ", ".join(self.config.changed()) or "default settings"
+        low, high = self.thresholds
+        made = self.bank.provenance
+        photos = f"{made.images} photos of {made.dataset}" if made.images else "an unknown source"
+        return [
+            f"{settings.capitalize()}.",
+            f"Canny thresholds {low:.0f} and {high:.0f}.",
+            f"Filters learned from {photos}.",
+        ]
+
+
+@lru_cache(maxsize=4)
+def bin_legend(bins: Bins) -> tuple[tuple[str, Colour], ...]:
+    """Words and colour of each bin: its orientation as a hue, brighter with strength."""
+    hues = coloured("twilight_shifted", np.arange(bins.orientations) / bins.orientations)
+    legend = []
+    for index in range(bins.count):
+        row, orientation = divmod(index, bins.orientations)
+        strength = row % bins.strengths
+        bright = 0.55 + 0.45 * strength / max(bins.strengths - 1, 1)
+        red, green, blue = (int(bright * one) for one in hues[orientation].tolist())
+        legend.append((bins.label(index), (red, green, blue)))
+    return tuple(legend)
 
 
 @dataclass(frozen=True)
@@ -180,7 +212,16 @@ class Detector:
         with timed(seconds, "score"):
             scores = score_at(to_grey(photo), rows, columns, bins, bank.filters)
         with timed(seconds, "cost"):
-            cost = self._cost(photo, edges, tensor.strength, scores)
+            seen = Seen(
+                photo=photo,
+                edges=edges,
+                strength=tensor.strength,
+                scores=scores,
+                config=config,
+                bank=bank,
+            )
+            model = CostModel.of(seen)
+            cost = model.total()
         with timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
         return FilterDetection(
@@ -200,9 +241,9 @@ class Detector:
             forward=path.forward,
             thresholds=thresholds,
             seconds=seconds,
+            cost_model=model,
             config=config,
             bank=bank,
-            **_search_settings(config),
         )
 
     def again(self, found: FilterDetection) -> FilterDetection:
@@ -220,6 +261,7 @@ class Detector:
             return self.detect(found.photo)
         seconds = dict.fromkeys(found.seconds, 0.0)
         scores, cost = found.scores, found.cost
+        model = found.cost_model.searched(config)
         if bank is not found.bank:
             with timed(seconds, "score"):
                 grey = to_grey(found.photo)
@@ -228,7 +270,16 @@ class Detector:
         alike = replace(config, delta=found.config.delta, link_weight=found.config.link_weight)
         if bank is not found.bank or alike != found.config:
             with timed(seconds, "cost"):
-                cost = self._cost(found.photo, found.edges, found.strength, scores)
+                seen = Seen(
+                    photo=found.photo,
+                    edges=found.edges,
+                    strength=found.strength,
+                    scores=scores,
+                    config=config,
+                    bank=bank,
+                )
+                model = CostModel.of(seen)
+                cost = model.total()
         with timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
         return replace(
@@ -240,40 +291,10 @@ class Detector:
             path_cost=path.cost,
             forward=path.forward,
             seconds=seconds,
+            cost_model=model,
             config=config,
             bank=bank,
-            **_search_settings(config),
         )
-
-    def _cost(self, photo: U8, edges: Bool, strength: F32, scores: F32) -> F32:
-        """Nodal cost ``(H, W)`` from the gradient strengths and scores ``(n,)`` of the edges."""
-        config = self.config
-        strength = normalised(strength, config.strength_percentile)
-        at_edges = edge_cost(scores, strength, config.v)
-        cost = nodal_cost(edges, at_edges, config.non_edge_cost, config.clear_sky)
-        if config.terrain_weight and len(scores):  # without edges, every line is a guess
-            above = terrain_above(photo, edges, self.bank.terrain)
-            add_blocks(cost, above, config.terrain_weight, BLOCK)
-        return cost
-
-
-class _SearchSettings(TypedDict):
-    delta: int
-    link_weight: float
-    non_edge_cost: float
-    score_weight: float
-    clear_sky: float
-
-
-def _search_settings(config: DetectorConfig) -> _SearchSettings:
-    """What a detection says of how its costs were made and searched."""
-    return {
-        "delta": config.delta,
-        "link_weight": config.link_weight,
-        "non_edge_cost": config.non_edge_cost,
-        "score_weight": config.v,
-        "clear_sky": config.clear_sky,
-    }
 
 
 def _edge_settings(config: DetectorConfig) -> tuple[object, ...]:

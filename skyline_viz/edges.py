@@ -138,6 +138,18 @@ def edge_pixels(edges: Bool) -> tuple[Int, Int]:
     return rows, flat - rows * np.int32(edges.shape[1])
 
 
+def edge_index(edges: Bool) -> Int:
+    """Place of each pixel among the edge pixels, ``(H, W)``; -1 where there is no edge.
+
+    >>> edge_index(np.array([[False, True], [True, False]])).tolist()
+    [[-1, 0], [1, -1]]
+    """
+    flat = np.flatnonzero(edges)
+    index = np.full(edges.shape, -1, np.int32)
+    index.ravel()[flat] = np.arange(len(flat), dtype=np.int32)
+    return index
+
+
 @numba.njit(cache=True, nogil=True)
 def _upside_down_sobel(channels: tuple[U8, ...]) -> tuple[I16, I16]:
     """3x3 Sobel gradients of the channel in which they are strongest, as Canny takes them.

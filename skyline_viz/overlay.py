@@ -7,25 +7,21 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import U8, check_photo
+from skyline_viz.arrays import U8, check_photo, runs
+from skyline_viz.colours import ALTERNATIVE, ANCHOR, HALO, PATH, TRUTH, Colour
 from skyline_viz.skyline import Skyline, SkylineError
 
-Colour = tuple[int, int, int]
-
-PATH: Colour = (0xFF, 0x2D, 0x95)
-"""Magenta: the detected skyline."""
-
-TRUTH: Colour = (0x00, 0xD1, 0xB2)
-"""Turquoise: the truth."""
-
-ALTERNATIVE: Colour = (0xFF, 0xD4, 0x00)
-"""Yellow: another line to compare with."""
-
-ANCHOR: Colour = (0xFF, 0xFF, 0xFF)
-"""White: pixels that an annotator has fixed."""
-
-HALO: Colour = (20, 20, 20)
-"""What surrounds a line, so that it reads on snow as well as on rock."""
+__all__ = [
+    "ALTERNATIVE",
+    "ANCHOR",
+    "HALO",
+    "PATH",
+    "TRUTH",
+    "Colour",
+    "css",
+    "draw_overlay",
+    "line_width",
+]
 
 _SUBPIXEL = 4
 """Binary digits behind the point of the coordinates that lines are drawn with."""
@@ -89,11 +85,11 @@ def _draw(picture: U8, strokes: list[npt.NDArray[np.int32]], colour: Colour, acr
 
 def _strokes(line: Skyline) -> Iterator[npt.NDArray[np.float64]]:
     """Points ``(m, 2)`` of (x, y) of each run of visible columns, pixel centres being whole."""
-    visible = np.concatenate([[False], line.visible, [False]])
-    starts, stops = np.flatnonzero(visible[1:] != visible[:-1]).reshape(-1, 2).T
-    for start, stop in zip(starts, stops, strict=True):
-        x = np.arange(start, stop, dtype=np.float64)
-        y = line.rows[start:stop].astype(np.float64) - 0.5  # the upper side of the terrain pixel
+    for first, last in runs(line.visible):
+        x = np.arange(first, last + 1, dtype=np.float64)
+        y = (
+            line.rows[first : last + 1].astype(np.float64) - 0.5
+        )  # the upper side of the terrain pixel
         ends = [x[0] - 0.5, *x, x[-1] + 0.5], [y[0], *y, y[-1]]
         yield np.column_stack(ends)
 

@@ -21,9 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, read_only
-
-APART = 5
-"""Rows within which two paths count as the same one."""
+from skyline_viz.path import APART, column_margin, cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,24 +77,6 @@ def uncertainty(
 
 
 @numba.njit(cache=True, nogil=True)
-def column_margin(through: F64, apart: int) -> float:
-    """Margin of a column: the gap between its best min-marginal and the best one further away.
-
-    Args:
-        through: ``(H,)`` min-marginals, up to a constant.
-        apart: Rows within which two paths count as the same one.
-    """
-    best = through.argmin()
-    second = np.inf
-    for row in range(best - apart):
-        second = min(second, through[row])
-    for row in range(best + apart + 1, len(through)):
-        second = min(second, through[row])
-    margin: float = max(second - through[best], 0.0)
-    return margin
-
-
-@numba.njit(cache=True, nogil=True)
 def _sweep_back(
     columns: F32,
     forward: F64,
@@ -112,16 +92,7 @@ def _sweep_back(
     after = np.zeros(height)
     through = np.empty(height)
     for column in range(width - 1, -1, -1):
-        if column < width - 1:
-            after[:] = before
-            for change in range(1, reach + 1):
-                link = link_weight * change
-                for row in range(height - change):
-                    down = before[row + change] + link
-                    after[row] = min(after[row], down)
-                for row in range(change, height):
-                    up = before[row - change] + link
-                    after[row] = min(after[row], up)
+        cross(before, reach, link_weight, after)  # beyond the last column nothing costs anything
         for row in range(height):
             through[row] = forward[column, row] + after[row]
             detour[column, row] = max(through[row] - best_cost, 0.0)

@@ -1,9 +1,13 @@
-"""What counts as a photo, and arrays that refuse writes."""
+"""What counts as a photo, arrays that refuse writes, and runs of a mask."""
+
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from skyline_viz.arrays import check_photo, read_only
+from skyline_viz.arrays import check_photo, read_only, runs
 
 
 @pytest.mark.parametrize("shape", [(2, 2, 3), (2, 500, 3), (500, 2, 3), (40, 60, 3)])
@@ -49,3 +53,17 @@ def test_read_only_arrays():
     read_only(array)
     with pytest.raises(ValueError, match="read-only"):
         array[0] = 1
+
+
+@given(st.lists(st.booleans(), max_size=60), st.integers(0, 6))
+def test_runs_hold_every_true_and_lie_apart(mask, gap):
+    found = runs(np.array(mask, bool), gap)
+    true = {place for place, one in enumerate(mask) if one}
+    held = {place for first, last in found for place in range(first, last + 1)}
+    assert true <= held
+    for first, last in found:
+        assert {first, last} <= true
+        inside = [one for one in sorted(true) if first <= one <= last]
+        assert all(b - a <= gap + 1 for a, b in pairwise(inside))
+    for (_, last), (first, _) in pairwise(found):
+        assert first - last > gap + 1

@@ -1,11 +1,16 @@
-"""Nodal costs: the formula at edges, the constant elsewhere, and the clear-sky term."""
+"""Nodal costs: the formula at edges, the constant elsewhere, and what a model tells of itself."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
+import skyline_viz as sv
+from skyline_viz.cost import TERMS, CostModel, normalised
+from skyline_viz.rendering import render
+from skyline_viz.terms import ClearSky, EdgeTerm, Link, NoEdge
 from testing.examples import examples
 
 STEADY = examples(60)
@@ -16,18 +21,22 @@ def float32(*values):
 
 
 def cost_of(edges, at_edges, non_edge=2.0, clear_sky=0.0):
-    return nodal_cost(edges, at_edges, non_edge, clear_sky)
+    terms = (
+        EdgeTerm(name="score", weight=1.0, edges=edges, good=1 - at_edges),
+        NoEdge(name="no edge", weight=non_edge, edges=edges),
+        ClearSky(name="clear sky", weight=clear_sky, edges=edges),
+    )
+    return CostModel(nodal=terms, link=Link(weight=0.0, delta=1), edges=edges).total()
 
 
-def slow_clear_sky(edges, weight):
-    """Weighted mean number of edge pixels more than 3 rows above, over 9 columns."""
-    height, width = edges.shape
-    added = np.zeros(edges.shape)
-    for row in range(height):
-        for column in range(width):
-            window = edges[: max(row - 3, 0), max(column - 4, 0) : column + 5]
-            added[row, column] = weight * window.sum() / window.shape[1]
-    return added
+def edge_cost(scores, strength, v):
+    edges = np.ones((1, len(scores)), bool)
+    terms = (
+        EdgeTerm(name="score", weight=v, edges=edges, good=scores),
+        EdgeTerm(name="strength", weight=1 - v, edges=edges, good=strength),
+        NoEdge(name="no edge", weight=2.0, edges=edges),
+    )
+    return CostModel(nodal=terms, link=Link(weight=0.0, delta=1), edges=edges).total()[0]
 
 
 # Strength
@@ -89,11 +98,11 @@ def test_score_and_strength_are_fused(score, strength, v, cost):
 def test_costs_stand_at_their_edge_pixels():
     edges = np.zeros((5, 7), bool)
     edges[[0, 2, 4, 4], [6, 1, 0, 3]] = True
-    cost = cost_of(edges, float32(0.1, 0.2, 0.3, 0.4), non_edge=2.5)
+    cost = cost_of(edges, float32(0.125, 0.25, 0.5, 0.75), non_edge=2.5)
     assert cost.shape == (5, 7)
     assert cost.dtype == np.float32
     expected = np.full((5, 7), 2.5, np.float32)
-    expected[[0, 2, 4, 4], [6, 1, 0, 3]] = float32(0.1, 0.2, 0.3, 0.4)
+    expected[[0, 2, 4, 4], [6, 1, 0, 3]] = float32(0.125, 0.25, 0.5, 0.75)
     assert np.array_equal(cost, expected)
 
 
@@ -106,64 +115,63 @@ def test_without_edges_every_pixel_costs_the_same():
     assert (cost == 3).all()
 
 
-# Clear sky
+# The model of a detection
+
+
+@pytest.fixture(scope="module", params=["default", "paper"])
+def found(request):
+    config = sv.DetectorConfig.paper() if request.param == "paper" else sv.DetectorConfig()
+    return sv.Detector(config=config).detect(render("hazy", 1, 240, 160).photo)
+
+
+def test_the_maps_of_the_terms_add_up_to_the_cost(found):
+    model = found.cost_model
+    assert len(model.nodal) == len(TERMS)
+    whole = sum(term.map().astype(np.float64) for term in model.nodal)
+    np.testing.assert_allclose(whole, found.cost, atol=1e-5)
+    assert np.array_equal(model.total(), found.cost)
+
+
+def test_a_weight_of_zero_takes_a_term_away(found):
+    for setting, term in (("clear_sky", "clear sky"), ("terrain_weight", "terrain")):
+        without = found.again(replace(found.config, **{setting: 0.0}))
+        gone = found.cost - found.cost_model[term].map()
+        np.testing.assert_allclose(without.cost, gone, atol=1e-5)
+        assert not without.cost_model[term].map().any()
+
+
+def test_the_settings_are_fields_of_the_configuration(found):
+    settings = found.cost_model.settings
+    assert settings == ("v", "non_edge_cost", "clear_sky", "terrain_weight", "link_weight")
+    assert all(hasattr(found.config, one) for one in settings)
 
 
 @STEADY
-@given(st.integers(1, 16), st.integers(1, 22), st.integers(0, 2**32 - 1), st.floats(0.001, 2))
-def test_clear_sky_against_plain_python(height, width, seed, weight):
+@given(st.integers(0, 2**32 - 1), st.booleans())
+def test_more_edges_cost_what_a_photo_with_them_would(seed, at_the_rim):
     rng = np.random.default_rng(seed)
-    edges = rng.random((height, width)) < 0.3
-    at_edges = rng.random(edges.sum()).astype(np.float32)
-    plain = cost_of(edges, at_edges)
-    added = cost_of(edges, at_edges, clear_sky=weight) - plain
-    assert np.allclose(added, slow_clear_sky(edges, weight), rtol=1e-4, atol=1e-5)
+    edges = rng.random((20, 40)) < 0.2
+    first, last = (0, 39) if at_the_rim else (5, 34)
+    columns = np.arange(first, last + 1) if at_the_rim else np.arange(15, 25)
+    rows = rng.integers(0, 20, len(columns))
+    columns, rows = columns[~edges[rows, columns]], rows[~edges[rows, columns]]
+    more = edges.copy()
+    more[rows, columns] = True
+
+    def model(edges):
+        good = np.full(edges.sum(), 0.75, np.float32)
+        terms = (
+            EdgeTerm(name="score", weight=1.0, edges=edges, good=good),
+            NoEdge(name="no edge", weight=2.0, edges=edges),
+            ClearSky(name="clear sky", weight=0.5, edges=edges),
+        )
+        return CostModel(nodal=terms, link=Link(weight=0.0, delta=1), edges=edges)
+
+    change = model(edges).more_edges(rows, columns, 0.25, first, last)
+    expected = (model(more).total() - model(edges).total())[:, first : last + 1]
+    np.testing.assert_allclose(change.T, expected, atol=1e-4)
 
 
-def test_an_edge_is_felt_four_rows_below():
-    edges = np.zeros((12, 30), bool)
-    edges[2, 15] = True
-    added = cost_of(edges, float32(2.0), clear_sky=0.9) - 2
-    assert np.flatnonzero(added.any(axis=1)).tolist() == list(range(6, 12))
-    assert np.flatnonzero(added.any(axis=0)).tolist() == list(range(11, 20))
-    assert np.allclose(added[6:, 11:20], 0.1)
-
-
-def test_columns_outside_the_photo_are_no_clear_sky():
-    edges = np.zeros((9, 20), bool)
-    edges[1] = True
-    added = cost_of(edges, np.full(20, 2, np.float32), clear_sky=0.5) - 2
-    assert np.allclose(added[5:], 0.5)
-    assert (added[:5] == 0).all()
-
-
-# Blocks
-
-
-def slow_blocks(blocks, height, width, side):
-    """Values of blocks interpolated between their centres, repeated beyond the outer ones."""
-    rows = np.arange(len(blocks)) * side + (side - 1) / 2
-    columns = np.arange(blocks.shape[1]) * side + (side - 1) / 2
-    downwards = np.array([np.interp(np.arange(height), rows, column) for column in blocks.T])
-    return np.array([np.interp(np.arange(width), columns, row) for row in downwards.T])
-
-
-@pytest.mark.parametrize(
-    ("height", "width", "side", "down", "right"),
-    [(32, 40, 8, 4, 5), (35, 46, 8, 4, 5), (5, 6, 8, 1, 1), (9, 8, 4, 2, 2), (8, 31, 8, 1, 3)],
-)
-def test_blocks_are_interpolated_between_their_centres(height, width, side, down, right):
-    rng = np.random.default_rng(height)
-    blocks = rng.normal(size=(down, right)).astype(np.float32)
-    cost = cost_of(rng.random((height, width)) < 0.1, np.float32(0.5), clear_sky=0.1)
-    before = cost.copy()
-    add_blocks(cost, blocks, 3.0, side)
-    expected = 3 * slow_blocks(blocks, height, width, side)
-    assert cost.shape == (height, width)
-    assert np.allclose(cost - before, expected, atol=1e-4)
-
-
-def test_blocks_of_one_value_move_every_pixel_alike():
-    cost = cost_of(np.zeros((20, 30), bool), float32())
-    add_blocks(cost, np.full((2, 3), -0.25, np.float32), 2.0, 8)
-    assert np.allclose(cost, 1.5)
+def test_a_typical_score_saves_what_lower_ones_lack(found):
+    saved = found.cost_model.saved(float32(0.2, 0.7, 0.9), 0.7)
+    np.testing.assert_allclose(saved, [found.config.v * 0.5, 0, 0], atol=1e-6)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from skyline_viz.overlay import ALTERNATIVE, HALO, PATH, TRUTH, draw_overlay, line_width
+from skyline_viz.colours import ALTERNATIVE, HALO, PATH, TRUTH
+from skyline_viz.overlay import draw_overlay, line_width
 from skyline_viz.skyline import Skyline, SkylineError
 
 HEIGHT, WIDTH = 60, 80

@@ -18,7 +18,7 @@ from typing import Literal, get_args
 import cv2
 import numpy as np
 
-from skyline_viz.arrays import Bool
+from skyline_viz.arrays import Bool, runs
 from skyline_viz.constraints import Anchor, StraightSpan
 
 SpanKind = Literal["straight", "drawn"]
@@ -154,9 +154,7 @@ class Edits:
         first, last = self._require_columns(first, last)
         mask = self.hidden_mask()
         mask[first : last + 1] = hidden
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]])))
-        runs = edges.reshape(-1, 2).tolist()
-        return self._with(hidden=tuple((start, stop - 1) for start, stop in runs))
+        return self._with(hidden=tuple(runs(mask)))
 
     def release(self, first: int, last: int) -> Edits:
         """Drop everything asked for in columns `first` to `last`, and strokes that begin there."""

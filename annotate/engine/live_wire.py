@@ -27,10 +27,10 @@ from annotate.engine.edits import ORIGINS, Edits, paint
 from annotate.engine.plan import Plan, Run, Stale, make_plan
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
 from skyline_viz.constraints import Anchor, PathError, StraightSpan
+from skyline_viz.detection import Detection
 from skyline_viz.method import Method
-from skyline_viz.path import cheapest_end, sweep, trace
+from skyline_viz.path import APART, cheapest_end, column_margin, min_marginals, sweep, trace
 from skyline_viz.skyline import Skyline
-from skyline_viz.uncertainty import APART, column_margin
 
 _POOL = ThreadPoolExecutor(2, "sweep")
 
@@ -60,18 +60,21 @@ class LiveWire:
         20.0
     """
 
-    def __init__(self, photo: U8, detector: Method | None) -> None:
+    def __init__(self, photo: U8, detector: Method | None, *, keep: bool = False) -> None:
         """Find the proposal.
 
         Args:
             photo: ``(H, W, 3)`` uint8 RGB.
             detector: What proposes; None to label blind: nothing is proposed and nothing solved,
                 and anchors are joined by straight lines.
+            keep: Whether `detection` stays, for whoever shows the stages of the photo.
         """
         check_photo(photo)
         self.height, self.width = photo.shape[:2]
         self.blind = detector is None
         self.proposal: Skyline | None = None
+        self.detection: Detection | None = None
+        """What the proposal is from, where it was to be kept."""
         if detector is None:
             cost, self._delta, self._link_weight = np.zeros((self.height, 0), np.float32), 0, 0.0
             forward = np.zeros((0, self.height))
@@ -81,6 +84,7 @@ class LiveWire:
             self.proposal = detection.skyline
             self._delta = min(detection.delta, self.height - 1)
             self._link_weight = float(detection.link_weight)
+            self.detection = detection if keep else None
             del detection  # its other planes, before these two are copied
         self._cost: F32 = np.ascontiguousarray(cost.T)
         del cost
@@ -306,11 +310,8 @@ class LiveWire:
         return rows
 
     def _min_marginals(self, column: int) -> F64:
-        cost = self._allowed[column].astype(np.float64)
-        through: F64 = np.full(self.height, np.inf)
-        possible = np.isfinite(cost)
-        whole = self._forward[column] + self._backward[column]
-        np.subtract(whole, cost, out=through, where=possible)
+        through = np.empty(self.height)
+        min_marginals(self._forward[column], self._backward[column], self._allowed[column], through)
         return through
 
     def _repaint(self, plan: Plan) -> tuple[int, int] | None:
@@ -363,12 +364,7 @@ def _measure(
     columns: F32, forward: F64, backward: F64, first: int, stop: int, apart: int, margins: F64
 ) -> None:
     """Margins of the columns from `first` up to, not including, `stop`."""
-    height = columns.shape[1]
-    through = np.empty(height)
+    through = np.empty(columns.shape[1])
     for column in range(first, stop):
-        for row in range(height):
-            cost = columns[column, row]
-            through[row] = forward[column, row] + backward[column, row] - cost
-            if np.isinf(cost):
-                through[row] = np.inf
+        min_marginals(forward[column], backward[column], columns[column], through)
         margins[column] = column_margin(through, apart)

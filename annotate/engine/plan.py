@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from annotate.engine.edits import Edits, Stroke
-from skyline_viz.arrays import Bool, Int, read_only
+from skyline_viz.arrays import Bool, Int, read_only, runs
 from skyline_viz.constraints import Anchor, StraightSpan
 
 
@@ -76,16 +76,15 @@ class Plan:
     @cached_property
     def runs(self) -> tuple[Run, ...]:
         """Runs of free columns, from left to right."""
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], self.free, [False]])))
         width = len(self.fixed)
         return tuple(
             Run(
-                start - 1,
-                int(self.fixed[start - 1]) if start > 0 else None,
-                stop,
-                int(self.fixed[stop]) if stop < width else None,
+                first - 1,
+                int(self.fixed[first - 1]) if first > 0 else None,
+                last + 1,
+                int(self.fixed[last + 1]) if last + 1 < width else None,
             )
-            for start, stop in edges.reshape(-1, 2).tolist()
+            for first, last in runs(self.free)
         )
 
     def run_at(self, column: int) -> Run | None:

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from annotate.store.contents import Contents
 from annotate.store.folder import photos_below
 from annotate.store.labels import Label
+from skyline_viz.arrays import runs
 from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.skyline import Skyline, SkylineError
 
@@ -174,10 +175,8 @@ def size_of(name: str, photos: Path) -> tuple[int, int]:
 
 def runs_of_points(skyline: Skyline) -> list[npt.NDArray[np.float64]]:
     """Points (x, y) of each run of visible columns, ``(m, 2)``: pixel centres across, rows down."""
-    seen = np.concatenate([[False], skyline.visible, [False]])
-    starts, stops = np.flatnonzero(seen[1:] != seen[:-1]).reshape(-1, 2).T
     points = np.column_stack([np.arange(skyline.width) + 0.5, skyline.rows.astype(np.float64)])
-    return [points[start:stop] for start, stop in zip(starts, stops, strict=True)]
+    return [points[first : last + 1] for first, last in runs(skyline.visible)]
 
 
 def names_below(photos: Path) -> list[str]:

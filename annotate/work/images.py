@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cv2
 import numpy as np
 import numpy.typing as npt
-from matplotlib import colormaps
 
-from skyline_viz.arrays import F32, U8, Bool
+from skyline_viz.arrays import F32, U8
+from skyline_viz.colours import coloured
 from skyline_viz.detection import Detection
-from skyline_viz.detector import FilterDetection
 from skyline_viz.skyline import Skyline
-from skyline_viz.tensor import tensor_map
+from skyline_viz.stage import OURS, Quantity, of_term
 
 TILE = 512
 """Side of a tile, in pixels."""
@@ -25,17 +26,14 @@ EXACT = 2_000_000
 BAND = 40
 """Rows above and below the line in the straightened strip."""
 
-STAGES = ("edges", "strength", "coherence", "orientation", "bin", "score", "cost")
-"""Stages that can be laid over the photo."""
+STAGES = tuple(one.name for one in OURS)
+"""Stages of our detector that can be laid over the photo, in their order."""
 
-_MAPS = {
-    "strength": "inferno",
-    "coherence": "viridis",
-    "orientation": "twilight_shifted",
-    "bin": "twilight_shifted",
-    "score": "viridis",
-    "cost": "magma_r",
-}
+
+def overlays(detection: Detection) -> tuple[str, ...]:
+    """What can be laid over a photo: the maps among its stages, and the terms of its cost."""
+    stages = [name for name, one in detection.stages.items() if one.where != "columns"]
+    return (*stages, *(term.name for term in detection.cost_model.nodal if term.weight))
 
 
 def view_size(height: int, width: int) -> tuple[int, int]:
@@ -83,54 +81,67 @@ def strip(photo: U8, skyline: Skyline, width: int) -> bytes:
 
 
 def stage(detection: Detection, name: str) -> bytes:
-    """A stage as RGBA, as large as the view of the photo; transparent where it has no value."""
+    """A stage or a term of the cost as RGBA, as large as the view of the photo, as PNG.
+
+    Transparent where it has no value; all of it where the detection has no such stage.
+    """
     shape = detection.edges.shape
     size = view_size(*shape)
-    if name == "edges":
-        layer = np.full((*shape, 4), 255, np.uint8)
-        layer[..., 3] = detection.edges * np.uint8(255)
-    elif name == "cost":
-        cost = detection.shown_cost
-        ruled_out = np.isnan(cost)
-        dearest = cost[~ruled_out].max(initial=0.0)
-        layer = _coloured(_scaled(np.where(ruled_out, dearest, cost)), name)
-    elif name in ("strength", "coherence", "orientation"):
-        values: F32 = getattr(tensor_map(detection.photo), name)
-        layer = _coloured(_scaled(values, 180.0 if name == "orientation" else None), name)
-    else:
-        at_edges, shown = detection.scores, detection.edges
-        if name == "bin" and isinstance(detection, FilterDetection):
-            count = detection.bank.bins.orientations
-            at_edges = (detection.bins % count / count).astype(np.float32)
-        elif name == "bin":
-            shown = np.zeros(shape, np.bool_)  # other methods have none
-        values = np.zeros(shape, np.float32)
-        values[detection.edge_rows, detection.edge_columns] = at_edges
-        layer = _coloured(values, name, shown)
+    layer = _layer(detection, name)
     if size != shape:
         layer = cv2.resize(_spread(layer, shape, size), size[::-1], interpolation=cv2.INTER_AREA)
     _, data = cv2.imencode(".png", cv2.cvtColor(layer, cv2.COLOR_RGBA2BGRA), _FAST)
     return data.tobytes()
 
 
-_FAST = [cv2.IMWRITE_PNG_COMPRESSION, 1]
-
-
-def _coloured(values: F32, name: str, where: Bool | None = None) -> U8:
-    table = (colormaps[_MAPS[name]](np.arange(256)) * 255).astype(np.uint8)
-    layer: U8 = table[(values.clip(0, 1) * 255).astype(np.uint8)]
-    if where is not None:
-        layer[..., 3] = where * np.uint8(255)
+def _layer(detection: Detection, name: str) -> U8:
+    shape = detection.edges.shape
+    found = detection.stages.get(name)
+    if found is None:
+        terms = [term for term in detection.cost_model.nodal if term.name == name]
+        return _coloured(of_term(name), terms[0].map()) if terms else _clear(shape)
+    if found.where == "mask":
+        layer = np.full((*shape, 4), 255, np.uint8)
+        layer[..., 3] = np.where(found.values, 255, 0)
+        return layer
+    if found.where == "photo":
+        return _coloured(found.quantity, np.asarray(found.values, np.float32))
+    if found.dense:
+        return _coloured(found.quantity, found.dense())
+    layer = _clear(shape)
+    if found.where == "edges":
+        table = np.array([colour for _, colour in found.legend], np.uint8)
+        rows, columns = detection.edge_rows, detection.edge_columns
+        colours = table[found.values] if found.legend else _colours(found.quantity, found.values)
+        layer[rows, columns, :3] = colours
+        layer[rows, columns, 3] = 255
     return layer
 
 
-def _scaled(values: npt.NDArray[np.float32], top: float | None = None) -> F32:
-    """Values from 0 to 1: up to `top`, or between the extremes but for a hundredth."""
-    if top is not None:
-        return values / np.float32(top)
-    low, high = np.percentile(values[::4, ::4], [0.5, 99.5])
-    scaled: F32 = ((values - low) / max(high - low, 1e-6)).astype(np.float32)
-    return scaled
+_FAST = [cv2.IMWRITE_PNG_COMPRESSION, 1]
+
+
+def _clear(shape: tuple[int, ...]) -> U8:
+    return np.zeros((*shape, 4), np.uint8)
+
+
+def _coloured(quantity: Quantity, values: F32) -> U8:
+    """A map ``(H, W)`` as RGBA; where there is no value, it has the last colour."""
+    known = np.where(np.isnan(values), np.nanmax(values, initial=0.0), values)
+    layer = np.full((*values.shape, 4), 255, np.uint8)
+    layer[..., :3] = _colours(quantity, known)
+    return layer
+
+
+def _colours(quantity: Quantity, values: npt.NDArray[Any]) -> U8:
+    """Colours of values, from the quantity's lowest to its highest, or but for a hundredth."""
+    low, high = quantity.low, quantity.high
+    some = values[::4, ::4] if values.ndim == 2 else values
+    if low is None:
+        low = float(np.percentile(some, 0.5))
+    if high is None:
+        high = float(np.percentile(some, 99.5))
+    return coloured(quantity.colour_map, (values - low) / max(high - low, 1e-6))
 
 
 def _spread(layer: U8, shape: tuple[int, ...], size: tuple[int, int]) -> U8:

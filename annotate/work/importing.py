@@ -20,6 +20,7 @@ from annotate.store.identity import Photo
 from annotate.store.label_table import Log
 from annotate.store.labels import MOST_PASSES, check_annotator
 from annotate.store.lines import Line
+from skyline_viz.arrays import runs
 from skyline_viz.skyline import Skyline
 
 _LONGEST_TAG = 80  # characters
@@ -91,10 +92,9 @@ def _drawn(one: Imported, height: int, status: str) -> tuple[list[tuple[float, s
     log: list[dict[str, Any]] = [
         {"kind": "drawn", "first": 0, "rows": inside.astype(int).tolist()},
     ]
-    seen = np.concatenate([[True], skyline.visible, [True]])
-    runs = np.flatnonzero(seen[1:] != seen[:-1]).reshape(-1, 2).tolist()
     log += [
-        {"kind": "hidden", "first": first, "last": stop - 1, "hidden": True} for first, stop in runs
+        {"kind": "hidden", "first": first, "last": last, "hidden": True}
+        for first, last in runs(~skyline.visible)
     ]
     tags = dict.fromkeys(_plain(tag) for tag in one.tags)
     log += [{"kind": "tag", "tag": tag, "on": True} for tag in tags if tag]

@@ -24,6 +24,10 @@ SESSION = 27
 """Bytes a pixel of an open photo: its pixels (3), nodal costs (4) and those without what the brush
 forbids (4), and the two tables of the live wire (8 each)."""
 
+KEPT = 28
+"""Bytes a pixel of a detection that is kept with its open photo: edges (1), costs (4), the forward
+table (8), and what is known of its edge pixels, 32 each: on noise every third pixel is one."""
+
 BLIND = 3
 """Bytes a pixel of an open photo that is labelled blind: its pixels."""
 
@@ -31,16 +35,23 @@ OPENING = 32
 """Bytes a pixel at the worst moment of opening one: measured up to 32, on noise, where every third
 pixel is an edge."""
 
+_TABLES = 16  # bytes a pixel of the live wire's tables, where the detection is not let go for them
+
 Value = TypeVar("Value")
 
 
-def require_room(photo: Photo) -> None:
+def require_room(photo: Photo, *, keep: bool = False) -> None:
     """Refuse to open a photo that does not fit into what is left of the memory.
+
+    Args:
+        photo: The photo.
+        keep: Whether its detection is kept.
 
     Raises:
         BusyError: It does not; the message says what it needs.
     """
-    need, free = OPENING * photo.height * photo.width, available()
+    each = OPENING + (_TABLES if keep else 0)
+    need, free = each * photo.height * photo.width, available()
     if free is not None and need > free:
         raise BusyError(
             f"{photo.name} has {photo.height * photo.width / 1e6:.0f} megapixels and needs about "
@@ -50,9 +61,10 @@ def require_room(photo: Photo) -> None:
 
 def detection_bytes(detection: Detection) -> int:
     """Bytes that keeping a detection takes, besides its photo's pixels."""
-    arrays = [value for value in vars(detection).values() if isinstance(value, np.ndarray)]
-    arrays += detection.maps.values()
-    return sum(one.nbytes for one in arrays if one is not detection.photo)
+    held = [*vars(detection).values(), *detection.maps.values()]
+    held += [value for term in detection.cost_model.nodal for value in vars(term).values()]
+    arrays = {id(one): one.nbytes for one in held if isinstance(one, np.ndarray)}
+    return sum(arrays.values()) - detection.photo.nbytes
 
 
 class OpenPhotos(Generic[Value]):
@@ -106,6 +118,10 @@ class OpenPhotos(Generic[Value]):
         with self._lock:
             self._shown = photo
             self._make_room(photo)
+
+    def keeps(self, photo: Photo) -> bool:
+        """Whether a photo keeps its detection while it is open: all that are of use have to fit."""
+        return OPEN_AT_MOST * (SESSION + KEPT) * photo.height * photo.width <= self._budget
 
     def fits(self, size: int) -> bool:
         """Whether a photo of so many bytes fits beside the one that is shown."""

@@ -22,7 +22,14 @@ class Session:
     """A photo, open for labelling. Its methods may be called from several threads."""
 
     def __init__(
-        self, store: Store, photo: Photo, label: int, detector: Method, *, blind: bool
+        self,
+        store: Store,
+        photo: Photo,
+        label: int,
+        detector: Method,
+        *,
+        blind: bool,
+        keep: bool = False,
     ) -> None:
         """Read the photo, and find its proposal or what has been made of it.
 
@@ -32,6 +39,7 @@ class Session:
             label: The label to work on.
             detector: What proposes, unless the label has begun with another one.
             blind: Whether nothing is proposed.
+            keep: Whether the detection stays with the photo, see `LiveWire`.
 
         Raises:
             PhotoError: The photo has vanished, or cannot be read any more.
@@ -43,7 +51,7 @@ class Session:
         self.pixels: U8 = self._opened.pixels
         kept = store.detector(label)
         self.detector = kept if kept and store.state(label).revision else detector
-        self.wire = LiveWire(self.pixels, None if blind else self.detector)
+        self.wire = LiveWire(self.pixels, None if blind else self.detector, keep=keep)
         self.state = store.state(label)
         if self.state.revision == 0 and not blind:
             margin = Verdict.of(self.wire.skyline, self.wire.margin, photo.height, None).margin

@@ -18,6 +18,7 @@ from annotate.work.doubts import columns_of
 from annotate.work.joined import Joined, joined
 from annotate.work.open_photos import (
     BLIND,
+    KEPT,
     SESSION,
     OpenPhotos,
     SmallPictures,
@@ -223,8 +224,14 @@ class Workbench:
         return changed
 
     def detection(self, photo: int) -> Detection:
-        """All stages of a photo, by the detector that made its proposal; one is kept if it fits."""
+        """All stages of a photo, by the detector that made its proposal.
+
+        That of an open photo is at hand unless the photo is large or blind; one of these is kept
+        if it fits.
+        """
         session = self.session(photo)
+        if session.wire.detection is not None:
+            return session.wire.detection
         with self._lock:
             kept = self._detection
             if kept and kept[:2] == (photo, id(session.detector)):
@@ -275,7 +282,8 @@ class Workbench:
     def _bytes(self, photo: int) -> int:
         """Bytes that a photo takes while it is open."""
         one = self.photo(photo)
-        return one.height * one.width * (BLIND if photo in self._blind else SESSION)
+        each = BLIND if photo in self._blind else SESSION + (KEPT if self._open.keeps(one) else 0)
+        return one.height * one.width * each
 
     def _fill(self, photo: int, future: Future[Session]) -> None:
         try:
@@ -283,7 +291,15 @@ class Workbench:
             blind = self.store.is_blind(label)
             with self._work:
                 self._require_room(photo, blind=blind)
-                session = Session(self.store, self.photo(photo), label, self.detector, blind=blind)
+                one = self.photo(photo)
+                session = Session(
+                    self.store,
+                    one,
+                    label,
+                    self.detector,
+                    blind=blind,
+                    keep=self._open.keeps(one),
+                )
             future.set_result(session)
         except BaseException as error:
             self.close_photo(photo)
@@ -297,8 +313,10 @@ class Workbench:
         """
         if blind:
             return
+        one = self.photo(photo)
+        keep = self._open.keeps(one)
         try:
-            require_room(self.photo(photo))
+            require_room(one, keep=keep)
         except PhotoError:
             self._open.close_others(photo)
-            require_room(self.photo(photo))
+            require_room(one, keep=keep)

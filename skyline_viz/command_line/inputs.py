@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from skyline_viz.command_line.messages import UsageError, counted, listed, say, 
 from skyline_viz.command_line.truth_options import Truths
 from skyline_viz.datasets.layouts import Dataset, DatasetItem, truth_names
 from skyline_viz.datasets.matching import TRUTH_FOLDERS
+from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.running.batch import Failure
 from skyline_viz.system.names import shortened
@@ -18,18 +18,7 @@ _LONGEST = 255 - len("-overlay.jpg")
 """Bytes of an output's name, without the longest ending that we put to it."""
 
 
-@dataclass(frozen=True)
-class Input:
-    """A photo to work on."""
-
-    name: str
-    """What its output files are called, without ending; no other input has the same."""
-
-    item: DatasetItem
-    """The photo, and its truth where there is one."""
-
-
-def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[Input]:
+def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[NamedItem]:
     """Photos of a command line: files as they are, folders as data sets; each file once.
 
     A file that does not exist is an input, too: it fails when its turn comes.
@@ -66,7 +55,7 @@ def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[Input]:
         say(f"names too long for those of outputs are cut: {listed([*map(shortened, long)])}.")
     if renamed := [name for name, stem in pairs if name != stem and _fits(stem)]:
         say(f"photos of the same name are told apart in the names of outputs: {listed(renamed)}.")
-    return [Input(name, item) for name, item in zip(names, items, strict=True)]
+    return [NamedItem(name, item) for name, item in zip(names, items, strict=True)]
 
 
 def output_names(items: Sequence[DatasetItem]) -> list[str]:

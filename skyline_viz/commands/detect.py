@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
-from skyline_viz.command_line.inputs import Input, collect, output_folder
+from skyline_viz.command_line.inputs import collect, output_folder
 from skyline_viz.command_line.messages import UsageError, counted, status_after, tell
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import BankFile, Folder, Preset, Switch, make_detector
@@ -20,6 +20,7 @@ from skyline_viz.system.memory import MAX_MEGAPIXELS
 from skyline_viz.system.names import columns_of, padded, shortened
 
 if TYPE_CHECKING:
+    from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.method import Method
 
 
@@ -105,7 +106,7 @@ class _Found:
         return f"{padded(shortened(self.name), wide)}  {size:>9}  {self.seconds:6.3f} s  {files}"
 
 
-def _detect(options: Detect, detector: Method, photo: Input) -> _Found:
+def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
     from skyline_viz.running.warming import warm_up  # noqa: PLC0415
 
     pixels = photo.item.photo()

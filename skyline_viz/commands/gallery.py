@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
-from skyline_viz.command_line.inputs import Input, collect, output_folder
+from skyline_viz.command_line.inputs import collect, output_folder
 from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
@@ -41,6 +41,7 @@ from skyline_viz.system.endings import told_by_signals
 from skyline_viz.system.memory import MAX_MEGAPIXELS, RECORDING
 
 if TYPE_CHECKING:
+    from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.gallery.store import Entry
     from skyline_viz.gallery.table import ServedGallery
     from skyline_viz.method import Method
@@ -153,19 +154,18 @@ class GalleryCommand:
 
 def build(
     out: Path,
-    inputs: Sequence[Input],
+    inputs: Sequence[NamedItem],
     method: Method,
     workers: int,
     beside: Method | None = None,
 ) -> tuple[list[Entry], list[Failure]]:
     """Bring a gallery up to date, and return its photos, the worst first, and those that failed."""
-    from skyline_viz.gallery.store import Gallery, Shot, by_need  # noqa: PLC0415
+    from skyline_viz.gallery.store import Gallery, by_need  # noqa: PLC0415
 
-    shots = [Shot(one.name, one.item) for one in inputs]
     entries: list[Entry] = []
     failures: list[Failure] = []
     workers = foresee((one.item for one in inputs), workers, RECORDING)
-    for outcome in Gallery(out).build(shots, method, beside, workers):
+    for outcome in Gallery(out).build(inputs, method, beside, workers):
         if isinstance(outcome, Failure):
             failures.append(outcome)
         else:
@@ -271,7 +271,7 @@ def _served(out: Path, entries: Sequence[Entry], cause: Cause | None) -> Iterato
     from skyline_viz.gallery.store import Gallery  # noqa: PLC0415
     from skyline_viz.gallery.table import served  # noqa: PLC0415
 
-    truth = any(entry.a_err is not None for entry in entries)
+    truth = any(entry.verdict.a_err is not None for entry in entries)
     with served(Gallery(out), entries, truth, cause) as gallery:
         yield gallery
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from skyline_viz import evaluation
-from skyline_viz.command_line.inputs import Input, collect, with_truth
+from skyline_viz.command_line.inputs import collect, with_truth
 from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
@@ -52,12 +52,12 @@ from skyline_viz.system.memory import (
 if TYPE_CHECKING:
     import rerun as rr
 
+    from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.detector import Detector
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Method
     from skyline_viz.skyline import Skyline
-    from skyline_viz.viewer.blueprints import Contents
-    from skyline_viz.viewer.recording import Fidelity
+    from skyline_viz.viewer.contents import Contents, Fidelity
 
 
 @dataclass(frozen=True)
@@ -147,7 +147,7 @@ class Inspect:
                 self._show(files)
         return status_after(failures) or (GOOD if files else SOME_FAILED)
 
-    def _foresee(self, inputs: Sequence[Input]) -> dict[str, int]:
+    def _foresee(self, inputs: Sequence[NamedItem]) -> dict[str, int]:
         """Say what is too large, or is kept lean; return the pixels of each input by name."""
         if not 0 <= self.full_megapixels < float("inf"):
             raise UsageError(f"--full-megapixels is 0 or more, not {self.full_megapixels:g}.")
@@ -211,7 +211,7 @@ class Inspect:
 
     def _record(
         self,
-        inputs: Sequence[Input],
+        inputs: Sequence[NamedItem],
         pixels: Mapping[str, int],
         using: _Using,
         folder: Path,
@@ -220,7 +220,8 @@ class Inspect:
         """Write the recordings, and return their files."""
         from skyline_viz.photo import PhotoError  # noqa: PLC0415
         from skyline_viz.system.names import recording_id  # noqa: PLC0415
-        from skyline_viz.viewer.recording import fidelity_of, new_recording  # noqa: PLC0415
+        from skyline_viz.viewer.contents import fidelity_of  # noqa: PLC0415
+        from skyline_viz.viewer.recording import new_recording  # noqa: PLC0415
 
         of_a_photo = (PhotoError, ValueError, MemoryError)  # what the other photos survive
         groups = [[one] for one in inputs] if self.split else [list(inputs)]
@@ -249,7 +250,7 @@ class Inspect:
     def _log(
         self,
         recording: rr.RecordingStream,
-        one: Input,
+        one: NamedItem,
         using: _Using,
         together: int,
         fidelity: Fidelity,
@@ -257,8 +258,8 @@ class Inspect:
         """Log a photo of `together` ones, and say what the recording now holds."""
         from skyline_viz.running.warming import warm_up  # noqa: PLC0415
         from skyline_viz.viewer.bank_recording import log_path_bins  # noqa: PLC0415
-        from skyline_viz.viewer.blueprints import Contents  # noqa: PLC0415
         from skyline_viz.viewer.comparison import log_comparison  # noqa: PLC0415
+        from skyline_viz.viewer.contents import Contents  # noqa: PLC0415
         from skyline_viz.viewer.recording import log_detection  # noqa: PLC0415
 
         photo, truth = one.item.photo(), self._truth_of(one)
@@ -285,13 +286,11 @@ class Inspect:
         tell(f"{one.name}{error}  margin {verdict.margin:.3g}")
         if diagnosis and diagnosis.right:
             tell(*diagnosis.said_right.splitlines())
-        height, width = found.edges.shape
-        return Contents(
-            height,
-            width,
+        return Contents.of(
+            found,
+            fidelity,
             truth=truth is not None,
             diagnosed=diagnosis is not None and not diagnosis.right,
-            bank=fidelity == "full",
             path_bins=alone,
             photos=together,
             compared=self.compare or "",
@@ -300,7 +299,7 @@ class Inspect:
         )
 
     def _train_sizes(
-        self, one: Input, detector: Detector, failures: list[Failure]
+        self, one: NamedItem, detector: Detector, failures: list[Failure]
     ) -> list[FilterBank]:
         """Filter banks of all sizes, learned from a data set without the photo."""
         assert self.sweep_training is not None
@@ -314,7 +313,7 @@ class Inspect:
         failures += failed
         return banks
 
-    def _truth_of(self, one: Input) -> Skyline | None:
+    def _truth_of(self, one: NamedItem) -> Skyline | None:
         if self.truth is None:
             return one.item.truth()
         sky, terrain = self.truths.sky, self.truths.terrain

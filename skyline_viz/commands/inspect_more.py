@@ -18,8 +18,7 @@ if TYPE_CHECKING:
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Method
     from skyline_viz.skyline import Skyline
-    from skyline_viz.viewer.blueprints import MethodContents
-    from skyline_viz.viewer.recording import Fidelity
+    from skyline_viz.viewer.contents import Fidelity, MethodContents
 
 _WARM = 64  # rows and columns of a detection before the timed one
 
@@ -47,23 +46,14 @@ def log_methods(
     """Detect with other methods and log it; return what the recording now holds of them."""
     if not methods:
         return ()
-    from skyline_viz.detector import FilterDetection  # noqa: PLC0415
-    from skyline_viz.viewer.blueprints import MethodContents  # noqa: PLC0415
+    from skyline_viz.viewer.contents import MethodContents  # noqa: PLC0415
     from skyline_viz.viewer.method_recording import log_methods as log_them  # noqa: PLC0415
 
     for method in methods:  # the first time includes loading compiled loops
         method.detect(found.photo[:_WARM, :_WARM].copy())
     others = [method.detect(found.photo) for method in methods]
     log_them(recording, found, others, truth, fidelity)
-    return tuple(
-        MethodContents(
-            one.method,
-            filters=isinstance(one, FilterDetection),
-            edges=not one.edges.all(),
-            maps=tuple(one.maps),
-        )
-        for one in others
-    )
+    return tuple(MethodContents.of(one) for one in others)
 
 
 def begin_sweeps(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skyline_viz.arrays import Bool
+from skyline_viz.arrays import Bool, runs
 from skyline_viz.skyline import Skyline, SkylineError, fill
 
 _FRAME = 0.01
@@ -101,10 +101,9 @@ def spans_of(columns: np.typing.NDArray[np.intp], most: int = 4) -> str:
     >>> spans_of(np.array([3, 4, 5, 9]))
     'columns 3 to 5 and 9'
     """
-    breaks = np.flatnonzero(np.diff(columns) > 1)
-    starts = columns[np.concatenate([[0], breaks + 1])].tolist()
-    stops = columns[np.concatenate([breaks, [len(columns) - 1]])].tolist()
-    spans = [f"{a}" if a == b else f"{a} to {b}" for a, b in zip(starts, stops, strict=True)]
+    mask = np.zeros(columns[-1] + 1, np.bool_)
+    mask[columns] = True
+    spans = [f"{a}" if a == b else f"{a} to {b}" for a, b in runs(mask)]
     if len(spans) > most:
         return f"{len(columns)} columns"
     noun = "column" if len(columns) == 1 else "columns"

@@ -17,10 +17,9 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F64, Bool, Int
-from skyline_viz.cost import CLEAR_SKY_ROWS
 from skyline_viz.detection import Detection
-from skyline_viz.diagnosis.cost_split import edge_index
-from skyline_viz.evaluation.metrics import column_errors
+from skyline_viz.edges import edge_index
+from skyline_viz.evaluation.metrics import column_errors, scaled
 from skyline_viz.path import cheapest_end, sweep, trace
 from skyline_viz.skyline import Skyline
 
@@ -32,9 +31,6 @@ CHANGES: tuple[Change, ...] = get_args(Change)
 
 REPAIRED = 0.8
 """Share of a segment's wrong columns that have to be right for the path to have come back."""
-
-REFERENCE_HEIGHT = 519
-"""Rows of the photos for which tolerances in pixels are meant; larger photos have larger ones."""
 
 _NEAR = 2.0  # rows within which an edge counts as one of the truth, at the reference height
 _LEAST_TYPICAL = 20  # edge pixels that a typical value is taken from
@@ -105,7 +101,7 @@ class Case:
         pixels = self.pixels[(self.pixels >= 0) & self.truth.visible]
         if len(pixels) < _LEAST_TYPICAL:
             return 0.8, (1 - self.detection.score_weight) / 2
-        scores, rest = self.detection.scores[pixels], self.detection.edge_rest[pixels]
+        scores, rest = self.detection.scores[pixels], self.detection.cost_model.edge_rest[pixels]
         typical = max(float(np.percentile(scores, 75)), _LEAST_SCORE)
         return typical, float(np.percentile(rest, 25))
 
@@ -122,10 +118,9 @@ class Case:
         """
         detection = self.detection
         pixels = self.pixels[columns]
-        low = np.maximum(self.typical[0] - detection.scores[pixels], 0.0)
+        raised = detection.cost_model.saved(detection.scores[pixels], self.typical[0])
         here = detection.cost[self.rows[columns], columns].astype(np.float64)
         ruled_out = here >= detection.non_edge_cost
-        raised = detection.score_weight * low
         saved: F64 = np.where(ruled_out, np.maximum(here - self.typical_cost, raised), raised)
         return saved
 
@@ -207,12 +202,9 @@ class Case:
             columns = np.flatnonzero(self.columns_of(change, first, last))
             rows = self.rows[columns]
             if change == "missed edge":
-                cost[columns - start, rows] += self.typical_cost - detection.no_edge_costs(
-                    rows, columns
+                cost += detection.cost_model.more_edges(
+                    rows, columns, self.typical_cost, start, stop
                 )
-                if detection.clear_sky:
-                    below = np.arange(cost.shape[1])[None, :] > rows[:, None] + CLEAR_SKY_ROWS
-                    cost[columns - start] += detection.clear_sky * below
             elif change == "too steep":
                 steps = self.steps[columns]
                 # saved on that side of the step which is farther from the path: the path must
@@ -254,7 +246,7 @@ class Case:
     def _on_edges(self) -> tuple[Int, Int]:
         height, width = self.detection.edges.shape
         rows = self.drawn_rows
-        index = edge_index(self.detection)
+        index = edge_index(self.detection.edges)
         columns = np.arange(width)
         pixels = index[rows, columns]
         found = rows.copy()
@@ -264,15 +256,6 @@ class Case:
             found[better] = moved[better]
             pixels = np.where(better, index[moved, columns], pixels)
         return found, pixels.astype(np.int32)
-
-
-def scaled(pixels: float, height: int) -> float:
-    """A length that is meant for photos of `REFERENCE_HEIGHT` rows, on a photo of `height` rows.
-
-    >>> scaled(4, 519), scaled(4, 240), scaled(4, 1038)
-    (4, 4, 8.0)
-    """
-    return pixels if height <= REFERENCE_HEIGHT else pixels * height / REFERENCE_HEIGHT
 
 
 def _cheapest(cost: F64, reach: Int, link_weight: float) -> Int:

@@ -31,15 +31,12 @@ from skyline_viz.detection import Detection
 from skyline_viz.diagnosis import evidence
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.diagnosis.cost_split import CostSplit, split_cost
-from skyline_viz.diagnosis.counterfactual import CHANGES, REPAIRED, Case, Change, scaled
+from skyline_viz.diagnosis.counterfactual import CHANGES, REPAIRED, Case, Change
 from skyline_viz.diagnosis.doubt import doubt_of
+from skyline_viz.evaluation.metrics import TOLERANCE, scaled, wrong_segments
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.system.names import named_in_markdown
 
-TOLERANCE = 4.0
-"""Error up to which a column is right, in pixels at 519 rows."""
-
-_GAP = 5  # right columns that do not end a segment
 _MOST_LINES = 8  # that are taken away until the truth is expected back,
 _MOST_SEARCHES = 64  # and as many plain searches at most that this may take as long as
 
@@ -94,7 +91,7 @@ class Segment:
     trials that it was made against; from 0 (a toss-up, or not proved) to 1."""
 
     path_cost: dict[str, float]
-    """What the path pays in the segment, stage by stage, see `cost_split.CostSplit`."""
+    """What the path pays in the segment, term by term, see `cost_split.CostSplit`."""
 
     truth_cost: dict[str, float]
     """What the truth pays."""
@@ -190,8 +187,8 @@ def diagnose(detection: Detection, truth: Skyline, tolerance: float | None = Non
     Args:
         detection: The detection.
         truth: The true line.
-        tolerance: Error up to which a column is right, in pixels; `TOLERANCE`, scaled for photos
-            of more than 519 rows, unless given.
+        tolerance: Error up to which a column is right, in pixels; that of
+            `metrics.wrong_segments` unless given.
 
     Raises:
         SkylineError: The truth has another width than the photo, or is visible nowhere.
@@ -204,7 +201,7 @@ def diagnose(detection: Detection, truth: Skyline, tolerance: float | None = Non
         raise SkylineError("the truth is visible nowhere.")
     allowed = scaled(TOLERANCE, height) if tolerance is None else checked_tolerance(tolerance)
     case = Case(detection, truth, allowed)
-    runs = failing_runs(case.errors > allowed)
+    runs = wrong_segments(case.errors, height, allowed)
     if not runs:
         return Diagnosis((), allowed)
     path = split_cost(detection, detection.skyline.rows.astype(np.int32))
@@ -221,15 +218,6 @@ def checked_tolerance(tolerance: float) -> float:
     if not 0 <= tolerance < math.inf:
         raise ValueError(f"a tolerance is a number of pixels, 0 or more, not {tolerance:g}.")
     return tolerance
-
-
-def failing_runs(wrong: np.ndarray[Any, np.dtype[np.bool_]]) -> list[tuple[int, int]]:
-    """First and last column of each run of wrong columns; a few right ones do not end it."""
-    columns = np.flatnonzero(wrong)
-    if len(columns) == 0:
-        return []
-    runs = np.split(columns, np.flatnonzero(np.diff(columns) > _GAP + 1) + 1)
-    return [(int(run[0]), int(run[-1])) for run in runs]
 
 
 class _Trials:
@@ -352,7 +340,7 @@ def _effect(case: Case, change: Change, first: int, last: int) -> float:
     columns = np.flatnonzero(case.columns_of(change, first, last))
     detection = case.detection
     if change == "missed edge":
-        due = detection.no_edge_costs(case.rows[columns], columns)
+        due = detection.cost_model["no edge"].at(case.rows[columns], columns)
         return float((due - case.typical_cost).sum())
     if change == "too steep":
         steep = np.maximum(case.steps[columns] - detection.delta, 0)

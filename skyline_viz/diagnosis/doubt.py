@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import U8, Int
-from skyline_viz.diagnosis.counterfactual import REPAIRED, Case, scaled
+from skyline_viz.diagnosis.counterfactual import REPAIRED, Case
+from skyline_viz.evaluation.metrics import scaled
 
 _ON_EDGES = 0.7  # share of the path's columns on edges from which on the truth can be doubtful,
 _NO_PEAK, _LESS_PEAK = 0.5, 0.2  # if its contrast stands out no more than this, or than this share

@@ -8,7 +8,6 @@ import numpy as np
 
 from skyline_viz.arrays import Int
 from skyline_viz.detection import Detection
-from skyline_viz.detector import FilterDetection
 from skyline_viz.diagnosis.counterfactual import REPAIRED, Case, Change
 
 
@@ -36,20 +35,20 @@ def changes_helped(share: float) -> str:
 
 
 def cheaper_by(paid: Mapping[str, float], due: Mapping[str, float], best: float) -> str:
-    """Which stage prefers the path, and by how much.
+    """Which term prefers the path, and by how much.
 
     Args:
-        paid: What the path pays, stage by stage.
+        paid: What the path pays, term by term.
         due: What the truth pays.
         best: The largest share that a change of the truth brings back.
     """
-    dearer = {stage: due[stage] - paid[stage] for stage in paid}
-    stage = max(dearer, key=lambda one: dearer[one])
+    dearer = {term: due[term] - paid[term] for term in paid}
+    term = max(dearer, key=lambda one: dearer[one])
     total = sum(dearer.values())
     if total > 0:
         costs = (
             f"The path is {total:.1f} cheaper than the truth here, "
-            f"mostly by {stage} ({dearer[stage]:.1f})."
+            f"mostly by {term} ({dearer[term]:.1f})."
         )
     else:  # it is cheaper on the way there and back
         costs = f"The path is {-total:.1f} dearer than the truth here, and cheaper beside it."
@@ -95,8 +94,9 @@ def _found(case: Case, change: Change, first: int, last: int) -> str:
 
 def _in_bins(detection: Detection, pixels: Int) -> str:
     """Which bins some edge pixels fell into, in words; nothing for methods without bins."""
-    if not isinstance(detection, FilterDetection):
+    bins = detection.stages.get("bin")
+    if bins is None:
         return ""
-    count = len(np.unique(detection.bins[pixels]))
+    count = len(np.unique(bins.values[pixels]))
     kind = "starved" if detection.starved[pixels].all() else "well-trained"
     return f" in {count} {kind} {'bin' if count == 1 else 'bins'}"

@@ -6,16 +6,16 @@ a timeline of the viewer counts; what they count is chosen so that they read wel
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from skyline_viz.config import DetectorConfig
+from skyline_viz.config import RANGES, DetectorConfig
 from skyline_viz.detector import Detector, FilterDetection
 from skyline_viz.edges import LOWEST_FACTOR
 from skyline_viz.filter_bank import FilterBank
 
-_MOST = {"thresholds": 1e5, "link_weight": 1e6, "delta": 100_000}  # what `DetectorConfig` takes
-_LINK = 0.1  # what a link weight of 0 is swept up from
+_LEAST = 0.1  # what a weight of 0 is swept up from, where the default is 0, too
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +68,9 @@ class Sweep:
 
 
 def setting_sweeps(found: FilterDetection) -> list[Sweep]:
-    """Sweeps of Canny thresholds, ``v``, ``delta`` and link weight around a detection."""
-    return [_thresholds(found), _v(found), _delta(found), _link_weight(found)]
+    """Sweeps around a detection: Canny thresholds, the weight of every term, and ``delta``."""
+    weights = [_weight(found, setting) for setting in found.cost_model.settings]
+    return [_thresholds(found), *weights, _delta(found)]
 
 
 def size_sweep(found: FilterDetection, banks: Sequence[FilterBank]) -> Sweep:
@@ -103,7 +104,9 @@ def _thresholds(found: FilterDetection) -> Sweep:
     """30 to 200 % of the thresholds that were used: as low as fitting lowers those of the paper."""
     steps = {}
     for percent in range(round(100 * LOWEST_FACTOR), 201, 10):
-        low, high = (min(one * (percent / 100), _MOST["thresholds"]) for one in found.thresholds)
+        low, high = (
+            min(one * (percent / 100), most_of("low_threshold")) for one in found.thresholds
+        )
         config = replace(found.config, fit_thresholds=False, low_threshold=low, high_threshold=high)
         steps[percent] = f"{low:.4g} and {high:.4g}", Detector(found.bank, config)
     return Sweep(
@@ -116,10 +119,24 @@ def _thresholds(found: FilterDetection) -> Sweep:
     )
 
 
-def _v(found: FilterDetection) -> Sweep:
-    """0 to 1; the present value takes the place of one that is within half a percent of it."""
-    values = [*(percent / 100 for percent in range(0, 101, 5)), found.config.v]
-    return _numbers(found, "v", "v", 100, "hundredths", values)
+def _weight(found: FilterDetection, setting: str) -> Sweep:
+    """0 to 1 where that is the range, else 0 to three times the present value.
+
+    The present value takes the place of one at the same step.
+    """
+    present = getattr(found.config, setting)
+    most = most_of(setting)
+    if most <= 1:
+        values = [percent / 100 * most for percent in range(0, 101, 5)]
+        return _numbers(found, setting, 100, "hundredths", [*values, present])
+    unit = present or getattr(type(found.config)(), setting) or _LEAST
+    values = [min(unit * fifths / 5, most) for fifths in range(16)]
+    return _numbers(found, setting, 1000, "thousandths", [*values, present])
+
+
+def most_of(setting: str) -> float:
+    """The largest value that a setting may have; no end where none is known."""
+    return RANGES.get(setting, (0.0, math.inf))[1]
 
 
 def _delta(found: FilterDetection) -> Sweep:
@@ -127,22 +144,13 @@ def _delta(found: FilterDetection) -> Sweep:
     present = found.config.delta
     stride = max(1, round(present / 6))
     values = [*range(stride, 12 * stride + 1, stride), present]
-    top = _MOST["delta"]
-    return _numbers(found, "delta", "delta", 1, "pixels", [min(one, top) for one in values], " px")
-
-
-def _link_weight(found: FilterDetection) -> Sweep:
-    """0 to three times the present value."""
-    present = found.config.link_weight
-    unit = present or _LINK
-    values = [min(unit * fifths / 5, _MOST["link_weight"]) for fifths in range(16)]
-    return _numbers(found, "link_weight", "Link weight", 1000, "thousandths", [*values, present])
+    top = round(most_of("delta"))
+    return _numbers(found, "delta", 1, "pixels", [min(one, top) for one in values], " px")
 
 
 def _numbers(
     found: FilterDetection,
     field: str,
-    title: str,
     scale: int,
     counts: str,
     values: Iterable[float],
@@ -154,6 +162,8 @@ def _numbers(
         config: DetectorConfig = replace(found.config, **{field: value})  # type: ignore[arg-type]
         steps[round(scale * value)] = f"{value:.4g}{unit}", Detector(found.bank, config)
     present = round(scale * getattr(found.config, field))
+    title = field.replace("_", " ")
+    title = title.capitalize() if " " in title else title  # v and delta are symbols
     return Sweep(field, title, counts, _in_order(steps), present, steps[present][0])
 
 

@@ -1,12 +1,53 @@
 """How far a skyline is from the truth. Every metric counts the columns visible in both."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from skyline_viz.arrays import F64
+from skyline_viz.arrays import F64, runs
 from skyline_viz.skyline import Skyline, SkylineError
 
 GROSS_MISS_SHARE = 0.05
 """A_err above this share of the image height is a gross miss."""
+
+
+TOLERANCE = 4.0
+"""Error up to which a column is right, in pixels at `REFERENCE_HEIGHT` rows; beyond it is wrong.
+
+Four pixels are what the papers count as a good line, and twice what labels are accurate to."""
+
+REFERENCE_HEIGHT = 519
+"""Rows of the photos for which lengths in pixels are meant; on larger photos they are larger."""
+
+SEGMENT_GAP = 5
+"""Wrong columns with at most this many right ones between them belong to one segment."""
+
+
+def scaled(pixels: float, height: int) -> float:
+    """A length that is meant for photos of `REFERENCE_HEIGHT` rows, on a photo of `height` rows.
+
+    >>> scaled(4, 519), scaled(4, 240), scaled(4, 1038)
+    (4, 4, 8.0)
+    """
+    return pixels if height <= REFERENCE_HEIGHT else pixels * height / REFERENCE_HEIGHT
+
+
+def wrong_segments(
+    errors: F64, height: int, tolerance: float | None = None
+) -> tuple[tuple[int, int], ...]:
+    """First and last column of each run of wrong columns; a few right ones do not end it.
+
+    >>> wrong_segments(np.array([0, 9, 9, 0, 9, 0, 0, 0, 0, 0, 0, 9.0]), height=100)
+    ((1, 4), (11, 11))
+
+    Args:
+        errors: ``(W,)`` in pixels; NaN where there is no truth.
+        height: Rows of the photo.
+        tolerance: Error up to which a column is right, in pixels; `TOLERANCE`, scaled for photos
+            of more than `REFERENCE_HEIGHT` rows, unless given.
+    """
+    allowed = scaled(TOLERANCE, height) if tolerance is None else tolerance
+    return tuple(runs(errors > allowed, SEGMENT_GAP))  # NaN is not greater
 
 
 def column_errors(skyline: Skyline, truth: Skyline) -> F64:
@@ -76,3 +117,41 @@ def is_gross_miss(error: float, height: int) -> bool:
         (False, True)
     """
     return error > GROSS_MISS_SHARE * height
+
+
+@dataclass(frozen=True)
+class Errors:
+    """What a skyline's distance from the truth comes to."""
+
+    a_err: float
+    """Mean error over the visible columns, in pixels."""
+
+    worst_column: int
+    """Column with the largest error."""
+
+    worst_error: float
+    """Its error, in pixels."""
+
+    gross_miss: bool
+    """Whether `a_err` is over 5 % of the image height."""
+
+    segments: tuple[tuple[int, int], ...]
+    """First and last column of each run of wrong columns, see `wrong_segments`."""
+
+    @classmethod
+    def of(cls, skyline: Skyline, truth: Skyline, height: int) -> "Errors":
+        """Compare a skyline with the truth, on a photo of `height` rows.
+
+        Raises:
+            SkylineError: The widths differ, or no column is visible in both.
+        """
+        errors = column_errors(skyline, truth)
+        mean = a_err(skyline, truth)
+        worst = int(np.nanargmax(errors))
+        return cls(
+            a_err=mean,
+            worst_column=worst,
+            worst_error=float(errors[worst]),
+            gross_miss=is_gross_miss(mean, height),
+            segments=wrong_segments(errors, height),
+        )

@@ -6,12 +6,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from skyline_viz.evaluation.metrics import (
-    a_err,
-    column_errors,
-    is_gross_miss,
-    segmentation_accuracy,
-)
+from skyline_viz.evaluation.metrics import Errors, segmentation_accuracy
 from skyline_viz.skyline import Skyline
 
 
@@ -55,16 +50,14 @@ class PhotoResult:
         Raises:
             SkylineError: The widths differ, a row lies outside `height`, or nothing is visible.
         """
-        error = a_err(skyline, truth)
-        errors = column_errors(skyline, truth)
-        worst = int(np.nanargmax(errors))
+        errors = Errors.of(skyline, truth, height)
         return cls(
             name=name,
-            a_err=error,
-            worst_error=float(errors[worst]),
-            worst_column=worst,
+            a_err=errors.a_err,
+            worst_error=errors.worst_error,
+            worst_column=errors.worst_column,
             segmentation_accuracy=segmentation_accuracy(skyline, truth, height),
-            gross_miss=is_gross_miss(error, height),
+            gross_miss=errors.gross_miss,
             seconds=seconds,
             height=height,
             width=truth.width,

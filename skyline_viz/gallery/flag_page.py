@@ -124,10 +124,10 @@ def about(entry: Entry) -> tuple[str, str]:
     verdict, details = [], []
     if entry.difference is not None:
         verdict.append(f"{entry.difference:.2f} px from {printable(entry.compared)}")
-    if entry.a_err is not None:
-        verdict += [f"A_err {entry.a_err:.2f} px", *(entry.causes or ())]
+    if entry.verdict.a_err is not None:
+        verdict += [f"A_err {entry.verdict.a_err:.2f} px", *(entry.causes or ())]
         details.append(f"wrong {entry.wrong}" if entry.wrong else "no column wrong")
-    details.append(f"margin {entry.margin:.2f} at {entry.unsure_column}")
+    details.append(f"margin {entry.verdict.margin:.2f} at {entry.verdict.unsure_column}")
     return " · ".join(verdict), " · ".join(details)
 
 

@@ -23,16 +23,20 @@ from typing import Any
 import numpy as np
 
 from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.diagnosis.diagnosing import diagnose
-from skyline_viz.gallery.documents import made, read_list, write_list
+from skyline_viz.evaluation.verdict import Verdict
+from skyline_viz.gallery.documents import GalleryError, made, read_list, write_list
 from skyline_viz.gallery.thumbnails import write_thumbnail
 from skyline_viz.method import Method
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.resume import digest_of_files, digest_of_method
 from skyline_viz.running.warming import warm_up
+from skyline_viz.stage import Quantity
 from skyline_viz.system.names import recording_id
 from skyline_viz.viewer.comparison import log_comparison
+from skyline_viz.viewer.contents import Contents
 from skyline_viz.viewer.diagnosis_recording import log_diagnosis
 from skyline_viz.viewer.recording import log_detection, new_recording
 from skyline_viz.viewer.report import listed_segments
@@ -45,7 +49,7 @@ _SAVE_EVERY = 1.0  # seconds
 
 @dataclass(frozen=True)
 class Entry:
-    """A photo of a gallery, and what its detection came to; see `verdict.Verdict`."""
+    """A photo of a gallery, and what its detection came to."""
 
     name: str
     """Unique in the gallery; also the name of its recording."""
@@ -62,26 +66,11 @@ class Entry:
     width: int
     """Its columns."""
 
-    margin: float
-    """How sure the path is; small is uncertain."""
+    verdict: Verdict
+    """What the detection came to."""
 
-    unsure_column: int
-    """Column with the smallest margin."""
-
-    a_err: float | None = None
-    """Mean error in pixels; None without a truth."""
-
-    worst_column: int | None = None
-    """Column with the largest error."""
-
-    worst_error: float | None = None
-    """Its error in pixels."""
-
-    gross_miss: bool | None = None
-    """Whether `a_err` is over 5 % of the image height."""
-
-    segments: tuple[tuple[int, int], ...] | None = None
-    """First and last column of each run of wrong columns."""
+    stages: tuple[Quantity, ...] = ()
+    """The stages that its recording holds."""
 
     causes: tuple[Cause, ...] | None = None
     """Why it went wrong, see `diagnosis.Diagnosis.causes`; nothing where it is right, None without
@@ -107,20 +96,10 @@ class Entry:
     @property
     def wrong(self) -> str:
         """The segments that went wrong, in words."""
-        return listed_segments(self.segments or (), most=2)
+        return listed_segments(self.verdict.segments or (), most=2)
 
 
 @dataclass(frozen=True)
-class Shot:
-    """A photo to put into a gallery."""
-
-    name: str
-    """Unique in the gallery, and fit for a file name."""
-
-    item: DatasetItem
-    """The photo, and its truth where there is one."""
-
-
 @dataclass(frozen=True)
 class Gallery:
     """The files of a gallery."""
@@ -144,11 +123,7 @@ class Gallery:
         """
         entries = {}
         for one in read_list(self.folder / "gallery.json", "photos", VERSION):
-            if one.get("segments") is not None:
-                one["segments"] = tuple((int(a), int(b)) for a, b in one["segments"])
-            if one.get("causes") is not None:
-                one["causes"] = tuple(one["causes"])
-            entry = made(Entry, self.folder / "gallery.json", one)
+            entry = _entry(self.folder / "gallery.json", one)
             entries[entry.name] = entry
         return entries
 
@@ -159,7 +134,7 @@ class Gallery:
 
     def build(
         self,
-        shots: Sequence[Shot],
+        shots: Sequence[NamedItem],
         method: Method,
         beside: Method | None = None,
         workers: int = 0,
@@ -205,9 +180,9 @@ def by_need(entries: Sequence[Entry]) -> list[Entry]:
         entries,
         key=lambda one: (
             -(one.difference or 0.0),
-            one.a_err is None,
-            -(one.a_err or 0.0),
-            one.margin,
+            one.verdict.a_err is None,
+            -(one.verdict.a_err or 0.0),
+            one.verdict.margin,
             one.name,
         ),
     )
@@ -256,5 +231,26 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
             }
     write_thumbnail(gallery.thumbnail(task.name), photo, detection.skyline, truth)
     photo_file = str(item.photo_path)
-    about = {"method": detection.method, "causes": causes, **against, **vars(verdict)}
-    return Entry(task.name, photo_file, made_from, *photo.shape[:2], **about)
+    stages = Contents.of(detection, "lean").stages
+    about = {"method": detection.method, "causes": causes, **against}
+    height, width = photo.shape[:2]
+    return Entry(task.name, photo_file, made_from, height, width, verdict, stages, **about)
+
+
+def _entry(path: Path, values: dict[str, Any]) -> Entry:
+    """An entry as `asdict` took it apart, put together again."""
+    try:
+        told = dict(values["verdict"])
+        if told["segments"] is not None:
+            told["segments"] = tuple((int(a), int(b)) for a, b in told["segments"])
+        if values["causes"] is not None:
+            values["causes"] = tuple(values["causes"])
+        stages = tuple(
+            Quantity(**{**one, "span": tuple(one["span"]), "tabs": tuple(one["tabs"])})
+            for one in values["stages"]
+        )
+        verdict = Verdict(**told)
+    except (LookupError, TypeError, ValueError) as error:
+        raise GalleryError(f"{path} is damaged: {error}.") from error
+    entry: Entry = made(Entry, path, {**values, "verdict": verdict, "stages": stages})
+    return entry

@@ -23,7 +23,8 @@ from skyline_viz.system.aftermath import passing_temporaries
 from skyline_viz.system.loopback import LOOPBACK
 from skyline_viz.system.names import recording_id, shortened, shown_in_viewer
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.blueprints import Contents, detection_blueprint
+from skyline_viz.viewer.blueprints import detection_blueprint
+from skyline_viz.viewer.contents import Contents
 from skyline_viz.viewer.process import free_port
 from skyline_viz.viewer.recording import APPLICATION
 from skyline_viz.viewer.rerun_internals import card_parts
@@ -125,7 +126,7 @@ def contents_of(entries: Sequence[Entry], truth: bool) -> Contents:
         one_size=all((one.height, one.width) == (first.height, first.width) for one in entries),
         truth=truth,
         bank=False,
-        filters=first.method in ("default", "paper"),
+        stages=first.stages,
         compared=first.compared,
         diagnosed=any(entry.causes for entry in entries),
         stacked_costs=False,
@@ -167,11 +168,11 @@ def _columns(
         "id": [recording_id(entry.name) for entry in entries],
         "name": [shown_in_viewer(shortened(entry.name)) for entry in entries],
         "photo": [photos.segment_url(recording_id(entry.name)) for entry in entries],
-        "a_err": [_rounded(one.a_err) for one in entries],
+        "a_err": [_rounded(one.verdict.a_err) for one in entries],
         "worst": [_worst(entry) for entry in entries],
         "difference": [_rounded(one.difference) for one in entries],
         "other_a_err": [_rounded(one.other_a_err) for one in entries],
-        "margin": [round(entry.margin, 2) for entry in entries],
+        "margin": [round(entry.verdict.margin, 2) for entry in entries],
         "wrong": [entry.wrong or "none" for entry in entries],
         "cause": [None if one.causes is None else one.cause or "none" for one in entries],
         "causes": [None if one.causes is None else ", ".join(one.causes) for one in entries],
@@ -181,9 +182,10 @@ def _columns(
 
 
 def _worst(entry: Entry) -> str:
-    if entry.worst_error is None:
-        return f"least sure at {entry.unsure_column}"
-    return f"{entry.worst_error:.0f} px at {entry.worst_column}"
+    verdict = entry.verdict
+    if verdict.worst_error is None:
+        return f"least sure at {verdict.unsure_column}"
+    return f"{verdict.worst_error:.0f} px at {verdict.worst_column}"
 
 
 def _rounded(value: float | None) -> float | None:

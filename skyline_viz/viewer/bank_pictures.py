@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib import colormaps
 from PIL import Image, ImageDraw, ImageFont
 
 from skyline_viz.arrays import U8, Int
 from skyline_viz.bins import Bins
+from skyline_viz.colours import coloured
 from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank
 
 CELL = 44
@@ -53,23 +53,6 @@ def cell_box(index: int, bins: Bins) -> tuple[int, int, int, int]:
     return left, top, left + CELL - _GAP, top + CELL - _GAP
 
 
-def bin_label(index: int, bins: Bins) -> str:
-    """What a bin stands for.
-
-    >>> bin_label(143, Bins())
-    'bin 143: coherence 0.4 to 0.8, strength 112 to 148, orientation 163 to 174°'
-    """
-    row, orientation = divmod(index, bins.orientations)
-    coherence, strength = divmod(row, bins.strengths)
-    step = 180.0 / bins.orientations
-    first = ((orientation - 0.5) * step) % 180.0
-    last = ((orientation + 0.5) * step) % 180.0
-    return (
-        f"bin {index}: coherence {_coherence(coherence, bins)}, "
-        f"strength {_strength(strength, bins)}, orientation {first:.0f} to {last:.0f}°"
-    )
-
-
 def draw_bank(bank: FilterBank) -> BankPictures:
     """Draw the filters and the samples of a bank. Starved bins have an orange corner."""
     cells = np.zeros(_size(bank.bins), np.int32)
@@ -81,12 +64,11 @@ def draw_bank(bank: FilterBank) -> BankPictures:
 
 def _draw_filters(bank: FilterBank) -> U8:
     sheet, pen = _sheet(bank.bins)
-    colours = colormaps["RdBu_r"]
     side = CELL - _GAP
     for index, taps in enumerate(bank.filters):
         left, top, _, _ = cell_box(index, bank.bins)
         top_tap = float(np.abs(taps).max()) or 1.0  # each filter shows its own shape
-        picture = (colours(0.5 + 0.5 * taps / top_tap)[..., :3] * 255).astype(np.uint8)
+        picture = coloured("blue_red", 0.5 + 0.5 * taps / top_tap)
         large = Image.fromarray(picture).resize((side, side), Image.Resampling.NEAREST)
         sheet.paste(large, (left, top))
         if bank.starved[index]:
@@ -99,7 +81,7 @@ def _draw_samples(bank: FilterBank) -> U8:
     font = ImageFont.load_default(size=_LETTERS - 4)
     heat = np.log10(bank.samples + 1.0)
     heat = heat / max(float(heat.max()), 1.0)
-    colours = (colormaps["viridis"](heat)[:, :3] * 255).astype(int)
+    colours = coloured("viridis", heat).tolist()
     for index, count in enumerate(bank.samples.tolist()):
         left, top, right, bottom = cell_box(index, bank.bins)
         pen.rectangle((left, top, right - 1, bottom - 1), fill=tuple(colours[index]))
@@ -132,11 +114,11 @@ def _sheet(bins: Bins) -> tuple[Image.Image, ImageDraw.ImageDraw]:
         left, top, _, bottom = cell_box(row * bins.orientations, bins)
         coherence, strength = divmod(row, bins.strengths)
         place = ((left - 8), (top + bottom) / 2)
-        pen.text(place, _strength(strength, bins), fill=_TEXT, font=font, anchor="rm")
+        pen.text(place, bins.strength_label(strength), fill=_TEXT, font=font, anchor="rm")
         if strength == 0:
             pen.line((8, top - 2, width, top - 2), fill=(90, 90, 90))
             pen.text((8, top + 8), "coherence", fill=_TEXT, font=font)
-            pen.text((8, top + 36), _coherence(coherence, bins), fill=_TEXT, font=font)
+            pen.text((8, top + 36), bins.coherence_label(coherence), fill=_TEXT, font=font)
     pen.text((LEFT - 8, TOP - 16), "strength", fill=_TEXT, font=font, anchor="rm")
     return sheet, pen
 
@@ -144,25 +126,6 @@ def _sheet(bins: Bins) -> tuple[Image.Image, ImageDraw.ImageDraw]:
 def _size(bins: Bins) -> tuple[int, int]:
     rows = bins.coherences * bins.strengths
     return TOP + rows * CELL + _GAP, LEFT + bins.orientations * CELL + _GAP
-
-
-def _coherence(level: int, bins: Bins) -> str:
-    return _range(level, bins.coherences, 0.0, bins.coherence_top, 0.0)
-
-
-def _strength(level: int, bins: Bins) -> str:
-    return _range(level, bins.strengths, bins.strength_offset, bins.strength_range, 0.0)
-
-
-def _range(level: int, levels: int, offset: float, span: float, lowest: float) -> str:
-    """Values that fall into a level, see `Bins.of`; the last one begins where the span ends."""
-    if levels == 1:
-        return "any"
-    step = span / (levels - 1)
-    first = lowest if level == 0 else offset + level * step
-    if level == levels - 1:
-        return f"{first:.3g} and more"
-    return f"{first:.3g} to {offset + (level + 1) * step:.3g}"
 
 
 def _short(count: int) -> str:

@@ -7,15 +7,13 @@ from functools import lru_cache
 import cv2
 import numpy as np
 import rerun as rr
-from matplotlib import colormaps
 
 from skyline_viz.arrays import U8, Int
-from skyline_viz.bins import Bins
+from skyline_viz.colours import PATH
 from skyline_viz.detector import FilterDetection
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.overlay import PATH
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.bank_pictures import BankPictures, bin_label, cell_box, draw_bank
+from skyline_viz.viewer.bank_pictures import BankPictures, cell_box, draw_bank
 
 
 def log_filter_bank(recording: rr.RecordingStream, bank: FilterBank, *, under: str = "") -> None:
@@ -30,7 +28,7 @@ def log_filter_bank(recording: rr.RecordingStream, bank: FilterBank, *, under: s
     """
     pictures = _drawn(bank)
     legend = [
-        rr.AnnotationInfo(1 + index, f"{bin_label(index, bank.bins)}: {count:,} samples", _CLEAR)
+        rr.AnnotationInfo(1 + index, f"{bank.bins.label(index)}: {count:,} samples", _CLEAR)
         for index, count in enumerate(bank.samples.tolist())
     ]
     cells = rr.SegmentationImage(pictures.cells.astype(np.uint16), opacity=1.0)
@@ -88,20 +86,6 @@ def path_bins(detection: FilterDetection) -> Int:
     return pixel[rows, np.arange(width)]
 
 
-@lru_cache(maxsize=4)
-def bin_legend(bins: Bins) -> rr.AnnotationContext:
-    """Words and colour of each bin: its orientation as a hue, brighter with strength."""
-    infos = [rr.AnnotationInfo(0, "", _CLEAR)]
-    hues = colormaps["twilight_shifted"](np.arange(bins.orientations) / bins.orientations)
-    for index in range(bins.count):
-        row, orientation = divmod(index, bins.orientations)
-        strength = row % bins.strengths
-        bright = 0.55 + 0.45 * strength / max(bins.strengths - 1, 1)
-        colour = tuple((255 * bright * hues[orientation, :3]).astype(int).tolist())
-        infos.append(rr.AnnotationInfo(1 + index, bin_label(index, bins), colour))
-    return rr.AnnotationContext(infos)
-
-
 _CLEAR = (0, 0, 0, 0)
 
 
@@ -122,7 +106,7 @@ def _about(detection: FilterDetection, column: int, index: int) -> str:
         pixel = _edge_pixel(detection, row, column)
         starved = ", **starved**" if bank.starved[index] else ""
         lines += [
-            f"{bin_label(index, bank.bins).capitalize()}  ",
+            f"{bank.bins.label(index).capitalize()}  ",
             f"{int(bank.samples[index]):,} training samples{starved}  ",
             f"Strength {detection.strength[pixel]:.1f} grey levels/px, "
             f"coherence {detection.coherence[pixel]:.2f}, "

@@ -3,6 +3,7 @@
 - *Skyline*: where is the line, and is it right?
 - *Stages*: the paper's figure 1, (a) to (f).
 - *Tensor*: what picks the filter.
+- *Terms*: what each pixel pays for each term of the nodal cost.
 - *Filter bank*: the filters, and which of them the path used.
 - *Columns*: error, margin and costs along the columns.
 - *Diagnosis*: why it went wrong, where it did.
@@ -12,84 +13,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import rerun.blueprint as rrb
 
+from skyline_viz.stage import Quantity
 from skyline_viz.system.names import shown_in_viewer
 from skyline_viz.viewer import entities
+from skyline_viz.viewer.contents import Contents, MethodContents
 from skyline_viz.viewer.entities import below
 
-TABS = ("Skyline", "Stages", "Tensor", "Filter bank", "Columns")
+TABS = ("Skyline", "Stages", "Tensor", "Terms", "Filter bank", "Columns")
 """The tabs of a recording of one photo with a full detection."""
 
 _BLACK = (12, 12, 12)
 _LINES = (entities.PATH, entities.TRUTH, entities.ALTERNATIVE)
-
-
-@dataclass(frozen=True)
-class MethodContents:
-    """What a recording holds of another method."""
-
-    name: str
-    """Its name."""
-
-    filters: bool = False
-    """Whether it is our detector, with other settings or filters."""
-
-    edges: bool = True
-    """Whether it looks for edges; else all pixels are candidates."""
-
-    maps: tuple[str, ...] = ()
-    """Names of its further maps."""
-
-
-@dataclass(frozen=True)
-class Contents:
-    """What a recording holds, which decides about its views."""
-
-    height: int
-    """Rows of the photo, of the first one where there are several."""
-
-    width: int
-    """Its columns."""
-
-    one_size: bool = True
-    """Whether all photos are as large as that: then views show a photo's pixels and no more. Else
-    each view fits itself to what is in it."""
-
-    truth: bool = False
-    """Whether there is a truth."""
-
-    filters: bool = True
-    """Whether tensor and bins are in it: those of our detector are, other methods have none."""
-
-    maps: tuple[str, ...] = ()
-    """Names of the further maps of another method."""
-
-    bank: bool = True
-    """Whether the filter bank is in it."""
-
-    path_bins: bool = False
-    """Whether the `entities.COLUMN` timeline is in it."""
-
-    photos: int = 1
-    """Number of photos on the `entities.IMAGE` timeline."""
-
-    diagnosed: bool = False
-    """Whether there is a diagnosis with failing segments."""
-
-    stacked_costs: bool = True
-    """Whether the picture of what path and truth pay is in it, where there is a diagnosis."""
-
-    compared: str = ""
-    """Name of the second detection; nothing without one."""
-
-    methods: tuple[MethodContents, ...] = ()
-    """Other methods on the photo."""
-
-    swept: str = ""
-    """Timeline of the setting that is swept first; nothing without a sweep."""
 
 
 def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blueprint:
@@ -101,8 +38,9 @@ def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blue
     """
     tabs = [
         _first_tab(contents),
-        _stages_tab(contents, _figure_1(contents), "Stages"),
-        *([_tensor_tab(contents)] if contents.filters else []),
+        _stages_tab(contents, _lettered(contents.stages), "Stages"),
+        *_own_tab(contents, contents.stages, "Tensor"),
+        *_own_tab(contents, contents.terms, "Terms"),
         *([_bank_tab(contents)] if contents.bank else []),
         _columns_tab(contents),
         *([_diagnosis_tab(contents)] if contents.diagnosed else []),
@@ -155,29 +93,29 @@ def _stages_tab(contents: Contents, stages: dict[str, list[str]], name: str) -> 
     return _grid(contents, views, name)
 
 
-def _figure_1(contents: Contents) -> dict[str, list[str]]:
+_FIGURE_1 = {"edges": 0, "score": 1, "cost": 3}  # where others have no place of their own: 2
+
+
+def _figure_1(stages: Sequence[Quantity]) -> dict[str, list[str]]:
+    """Titles and entities of the stages, in the order of the paper's figure."""
+    mine = [one for one in stages if "Stages" in one.tabs]
+    mine.sort(key=lambda one: _FIGURE_1.get(one.name, 2))
+    return {one.title: [entities.of_quantity(one)] for one in mine}
+
+
+def _lettered(stages: Sequence[Quantity]) -> dict[str, list[str]]:
     views = {
         "Photo": [entities.PHOTO],
-        "Edges": [entities.EDGES],
-        "Score: bright like skyline": [entities.SCORE],
-        **({"Gradient strength": [entities.STRENGTH]} if contents.filters else {}),
-        **{name.capitalize(): [entities.map_of(name)] for name in contents.maps},
-        "Nodal cost: bright is cheap": [entities.COST],
+        **_figure_1(stages),
         "Path": [entities.PHOTO, *_with_halos()],
     }
-    return {
-        f"({'abcdefghij'[at]}) {title}": shown for at, (title, shown) in enumerate(views.items())
-    }
+    return {f"({chr(ord('a') + at)}) {title}": views[title] for at, title in enumerate(views)}
 
 
-def _tensor_tab(contents: Contents) -> rrb.Container:
-    views = {
-        "Strength (grey levels/px)": [entities.STRENGTH],
-        "Coherence": [entities.COHERENCE],
-        "Orientation of the gradient (degrees)": [entities.ORIENTATION],
-        "Bin: hue is orientation, brighter is stronger": [entities.BIN],
-    }
-    return _stages_tab(contents, views, "Tensor")
+def _own_tab(contents: Contents, quantities: Sequence[Quantity], name: str) -> list[rrb.Container]:
+    """A tab of those quantities that belong there; nothing without any."""
+    views = {one.title: [entities.of_quantity(one)] for one in quantities if name in one.tabs}
+    return [_stages_tab(contents, views, name)] if views else []
 
 
 def _bank_tab(contents: Contents) -> rrb.Container:
@@ -252,8 +190,9 @@ def _sweep_tab(contents: Contents) -> rrb.Container:
 
 def _compare_tab(contents: Contents) -> rrb.Container:
     views = []
-    stages = {"edges": entities.EDGES, "score": entities.SCORE, "nodal cost": entities.COST}
-    for title, stage in stages.items():
+    stages = [one for one in contents.stages if "Stages" in one.tabs and not one.group]
+    for one in stages:
+        title, stage = one.word or one.name, entities.of_quantity(one)
         views += [
             _photo_view(f"First: {title}", [stage, *_with_halos([entities.PATH])]),
             _photo_view(
@@ -264,7 +203,7 @@ def _compare_tab(contents: Contents) -> rrb.Container:
     text = rrb.TextDocumentView(origin=entities.COMPARISON, name="What differs")
     title = shown_in_viewer(f"Report of {contents.compared}")
     other = rrb.TextDocumentView(origin=below(entities.OTHER, entities.REPORT), name=title)
-    shares = [4, 4, 4, 6]  # the reports need their lines
+    shares = [4] * len(stages) + [6]  # the reports need their lines
     return rrb.Grid(*views, text, other, grid_columns=2, row_shares=shares, name="Compare")
 
 
@@ -292,15 +231,12 @@ def _methods_tab(contents: Contents) -> rrb.Container:
 
 def _method_tab(contents: Contents, one: MethodContents) -> rrb.Container:
     """The stages of a method, as the stages of ours."""
-    own = Contents(contents.height, contents.width, filters=one.filters, maps=one.maps)
-    no_view = ("Photo",) if one.edges else ("Photo", "Edges")
     line = f"{entities.METHOD_LINES}/{one.name}"
-    views = {}
-    for title, shown in _figure_1(own).items():
-        if title.endswith("Path"):
-            views["Path"] = [entities.PHOTO, *_with_halos([line, entities.TRUTH])]
-        elif not title.endswith(no_view):
-            views[title.split(") ", 1)[1]] = [below(_stages_of(one), stage) for stage in shown]
+    views = {
+        title: [below(_stages_of(one), stage) for stage in shown]
+        for title, shown in _figure_1(one.stages).items()
+    }
+    views["Path"] = [entities.PHOTO, *_with_halos([line, entities.TRUTH])]
     pictures = [_photo_view(title, shown) for title, shown in views.items()]
     report = rrb.TextDocumentView(origin=below(_stages_of(one), entities.REPORT), name="Report")
     return _grid(contents, [*pictures, report], one.name)

@@ -8,12 +8,11 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 import rerun as rr
-from matplotlib import colormaps
 
-from skyline_viz.arrays import F64
+from skyline_viz.arrays import F64, runs
+from skyline_viz.colours import HALO, Colour, coloured
 from skyline_viz.detection import Detection
 from skyline_viz.evaluation.metrics import column_errors
-from skyline_viz.overlay import HALO, Colour
 from skyline_viz.skyline import Skyline
 from skyline_viz.viewer import entities
 
@@ -64,11 +63,9 @@ def log_line(
 
 def line_strips(skyline: Skyline) -> list[npt.NDArray[np.float32]]:
     """Points ``(m, 2)`` of (x, y) of each visible run of a skyline, in the viewer's coordinates."""
-    visible = np.concatenate([[False], skyline.visible, [False]])
-    starts, stops = np.flatnonzero(visible[1:] != visible[:-1]).reshape(-1, 2).T
     centres = np.arange(skyline.width, dtype=np.float32) + np.float32(0.5)
     points = np.column_stack([centres, skyline.rows])
-    return [points[start:stop] for start, stop in zip(starts, stops, strict=True)]
+    return [points[first : last + 1] for first, last in runs(skyline.visible)]
 
 
 def log_columns(
@@ -150,7 +147,7 @@ def _log_strip(
 
 @lru_cache(maxsize=2)
 def _strip_legend(words: tuple[str, ...]) -> rr.AnnotationContext:
-    colours = colormaps["inferno"](np.linspace(0.15, 0.95, len(words)), bytes=True).tolist()
+    colours = coloured("inferno", np.linspace(0.15, 0.95, len(words))).tolist()
     infos = [rr.AnnotationInfo(0, "", (0, 0, 0, 0))]
     for word, colour in zip(words, colours, strict=True):
         infos.append(rr.AnnotationInfo(len(infos), word, tuple(colour)))

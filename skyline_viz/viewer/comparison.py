@@ -5,15 +5,17 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
+from skyline_viz.colours import ALTERNATIVE
 from skyline_viz.detection import Detection
-from skyline_viz.evaluation.verdict import Verdict, wrong_segments
-from skyline_viz.overlay import ALTERNATIVE
+from skyline_viz.evaluation.metrics import TOLERANCE, scaled, wrong_segments
+from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.names import named_in_markdown
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import ALTERNATIVE_RADIUS, curve, log_line
+from skyline_viz.viewer.contents import Fidelity
 from skyline_viz.viewer.documents import markdown_document
-from skyline_viz.viewer.recording import Fidelity, log_detection
+from skyline_viz.viewer.recording import log_detection
 from skyline_viz.viewer.report import listed_segments
 
 _DIFFERENCE = (0xAA, 0x8E, 0x0A)  # the yellow of the second line, as dark as areas need it
@@ -53,7 +55,7 @@ def log_comparison(
     words = listed_segments(apart) or "none"
     text = (
         f"**{named_in_markdown(name)}** against the first  \n"
-        f"Columns over 1 % of the height apart: {words}  \n"
+        f"Columns over {scaled(TOLERANCE, height):.3g} px apart: {words}  \n"
         f"Largest difference {np.abs(lower).max():.0f} px, "
         f"mean {np.abs(lower).mean():.2f} px\n"
     )

@@ -2,43 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 import rerun as rr
-from matplotlib import rc_context
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 
-from skyline_viz.arrays import U8, Int
+from skyline_viz.arrays import Int
+from skyline_viz.colours import ALTERNATIVE, HALO
 from skyline_viz.detection import Detection
-from skyline_viz.diagnosis.cost_split import CostSplit, split_cost
+from skyline_viz.diagnosis.cost_split import split_cost
 from skyline_viz.diagnosis.counterfactual import Case
 from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment
-from skyline_viz.overlay import ALTERNATIVE, HALO
+from skyline_viz.evaluation.stacked import stacked_columns
 from skyline_viz.skyline import Skyline
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import LINE_RADIUS
+from skyline_viz.viewer.contents import Fidelity
 from skyline_viz.viewer.documents import markdown_document
-from skyline_viz.viewer.recording import Fidelity
 
 _FRAME, _MISSED, _STARVED = (0xF5, 0xF5, 0xF5), (0xE6, 0x9F, 0x00), (0x56, 0xB4, 0xE9)
-_STAGES = {
-    "score": "#56B4E9",
-    "strength": "#0072B2",
-    "edge": "#0072B2",
-    "no edge": "#E69F00",
-    "clear sky": "#CC79A7",
-    "terrain": "#009E73",
-    "link": "#999999",
-}
-"""Colours that people with colour-vision deficiency tell apart."""
-
 _NAMED = 3  # segments whose causes are written on the photo, those with the largest total error
 _LEAST_FRAME = 6  # columns that the frame of a segment is wide at least
 _BEYOND = 8  # columns beside a segment in which the counterfactual path is drawn
-_SMOOTH = 9  # columns over which stacked costs are averaged
 
 
 def log_diagnosis(
@@ -103,44 +87,15 @@ def log_diagnosis(
     _log_truth_pixels(recording, case)
     if fidelity == "lean":
         return
-    path = split_cost(detection, detection.skyline.rows.astype(np.int32))
-    ideal = split_cost(detection, case.rows)
-    recording.log(entities.STACKED_COSTS, rr.Image(stacked_costs(path, ideal)))
-
-
-def stacked_costs(path: CostSplit, truth: CostSplit) -> U8:
-    """A picture ``(h, w, 3)`` of what path and truth pay in each column, stacked by stage."""
-    style: dict[Any, Any] = {
-        "axes.facecolor": "#0c0c0c",
-        "figure.facecolor": "#0c0c0c",
-        "text.color": "#dddddd",
-        "axes.labelcolor": "#dddddd",
-        "xtick.color": "#dddddd",
-        "ytick.color": "#dddddd",
-        "axes.edgecolor": "#555555",
-        "font.size": 11,
-    }
-    with rc_context(style):
-        figure = Figure(figsize=(12.6, 3.6), dpi=100, layout="constrained")
-        canvas: Any = FigureCanvasAgg(figure)
-        both = figure.subplots(1, 2, sharey=True)
-        for axes, split, title in zip(both, (path, truth), ("Path", "Truth"), strict=True):
-            costs = np.array([_smooth(one) for one in split.stages.values()])
-            columns = np.arange(costs.shape[1])
-            colours = [_STAGES[stage] for stage in split.stages]
-            for sign in (np.maximum, np.minimum):  # gains go below the axis
-                axes.stackplot(columns, sign(costs, 0), colors=colours, linewidth=0)
-            axes.plot(columns, costs.sum(axis=0), color="white", linewidth=0.8)
-            axes.set_title(f"{title}: cost of each column")
-            axes.margins(x=0)
-            axes.set_xlabel("column")
-        handles = [both[0].collections[at] for at in range(len(path.stages))]
-        figure.legend(
-            handles, list(path.stages), loc="outside lower center", ncols=6, frameon=False
+    paid = {
+        title: split_cost(detection, rows).terms
+        for title, rows in (
+            ("Path: cost of each column", detection.skyline.rows.astype(np.int32)),
+            ("Truth: cost of each column", case.rows),
         )
-        canvas.draw()
-        picture: U8 = np.asarray(canvas.buffer_rgba())[..., :3].copy()
-    return picture
+    }
+    colours = {term.name: term.colour for term in detection.cost_model.terms}
+    recording.log(entities.STACKED_COSTS, rr.Image(stacked_columns(paid, colours)))
 
 
 def _around(segment: Segment) -> npt.NDArray[np.float32]:
@@ -170,8 +125,3 @@ def _log_truth_pixels(recording: rr.RecordingStream, case: Case) -> None:
 
 def _points(columns: npt.NDArray[np.intp], rows: Int) -> npt.NDArray[np.float32]:
     return np.column_stack([columns + 0.5, rows[columns]]).astype(np.float32)
-
-
-def _smooth(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    padded = np.pad(values, _SMOOTH // 2, mode="edge")  # or it would droop at the rims
-    return np.convolve(padded, np.full(_SMOOTH, 1 / _SMOOTH), mode="valid")

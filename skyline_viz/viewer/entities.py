@@ -3,6 +3,8 @@
 A second detection beside the first has the same paths under `OTHER`.
 """
 
+from skyline_viz.stage import Quantity
+
 PHOTO = "photo"
 """The photo."""
 
@@ -32,6 +34,9 @@ DETOUR = "detour"
 
 MAPS = "maps"
 """`MAPS`/NAME: further maps of another method, such as its dense scores."""
+
+TERMS = "terms"
+"""`TERMS`/NAME: what each pixel pays for one term of the nodal cost."""
 
 METHODS = "methods"
 """Parent of the stages of other methods: `METHODS`/NAME/STAGE."""
@@ -146,13 +151,13 @@ COLUMN = "column"
 """Timeline: the column whose path pixel is looked at."""
 
 
-def map_of(name: str) -> str:
-    """Entity path of a further map of a method.
+def of_quantity(quantity: Quantity) -> str:
+    """Path of a stage, or of a term, below what it belongs to.
 
-    >>> map_of("sky probability")
-    'maps/sky_probability'
+    >>> of_quantity(Quantity("sky probability", group="maps")), of_quantity(Quantity("score"))
+    ('maps/sky_probability', 'score')
     """
-    return f"{MAPS}/{name.replace(' ', '_')}"
+    return below(quantity.group, quantity.name.replace(" ", "_"))
 
 
 def below(parent: str, entity: str) -> str:

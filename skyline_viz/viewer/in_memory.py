@@ -7,10 +7,10 @@ import threading
 import rerun as rr
 
 from skyline_viz.detection import Detection
-from skyline_viz.detector import FilterDetection
 from skyline_viz.skyline import Skyline
-from skyline_viz.viewer.blueprints import Contents, detection_blueprint
-from skyline_viz.viewer.recording import APPLICATION, fidelity_of, log_detection
+from skyline_viz.viewer.blueprints import detection_blueprint
+from skyline_viz.viewer.contents import Contents, fidelity_of
+from skyline_viz.viewer.recording import APPLICATION, log_detection
 
 _one_at_a_time = threading.Lock()  # a recording takes as much memory as its photo is large
 
@@ -31,16 +31,7 @@ def recorded(detection: Detection, truth: Skyline, name: str) -> bytes:
             recording.send_recording_name(name)
             fidelity = fidelity_of(detection.edges.size)
             log_detection(recording, detection, truth, name=name, fidelity=fidelity)
-            ours = isinstance(detection, FilterDetection)
-            height, width = detection.edges.shape
-            contents = Contents(
-                height,
-                width,
-                truth=True,
-                filters=ours,
-                maps=tuple(detection.maps),
-                bank=ours and fidelity == "full",
-            )
+            contents = Contents.of(detection, fidelity, truth=True)
             recording.send_blueprint(detection_blueprint(contents))
             return stream.read() or b""
         finally:

@@ -6,14 +6,15 @@ from collections.abc import Sequence
 
 import rerun as rr
 
+from skyline_viz.colours import Colour
 from skyline_viz.detection import Detection
 from skyline_viz.evaluation.verdict import Verdict
-from skyline_viz.overlay import Colour
 from skyline_viz.skyline import Skyline
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import log_line
+from skyline_viz.viewer.contents import Fidelity
 from skyline_viz.viewer.documents import markdown_document
-from skyline_viz.viewer.recording import Fidelity, log_detection
+from skyline_viz.viewer.recording import log_detection
 
 COLOURS: dict[str, Colour] = {
     "orange": (0xE6, 0x9F, 0x00),

@@ -15,8 +15,9 @@ import rerun.notebook as rrn
 from skyline_viz.detection import Detection
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.names import printable, shown_in_viewer
-from skyline_viz.viewer.blueprints import Contents, detection_blueprint
-from skyline_viz.viewer.recording import APPLICATION, Fidelity, log_detection
+from skyline_viz.viewer.blueprints import detection_blueprint
+from skyline_viz.viewer.contents import Contents, Fidelity
+from skyline_viz.viewer.recording import APPLICATION, log_detection
 
 
 def show_detection(
@@ -48,8 +49,7 @@ def show_detection(
     recording = rr.RecordingStream(APPLICATION)
     recording.set_log_time_enabled(False)
     recording.send_recording_name(shown_in_viewer(printable(name)))
-    rows, columns = detection.photo.shape[:2]
-    contents = Contents(rows, columns, truth=truth is not None, bank=fidelity == "full")
+    contents = Contents.of(detection, fidelity, truth=truth is not None)
     viewer = rrn.Viewer(
         width=width, height=height, recording=recording, blueprint=detection_blueprint(contents)
     )

@@ -15,7 +15,6 @@ import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
-from typing import Literal, TypeAlias
 
 import cv2
 import numpy as np
@@ -24,47 +23,36 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from skyline_viz.arrays import U8, Bool, check_photo
+from skyline_viz.colours import PATH, TRUTH
 from skyline_viz.detection import Detection
-from skyline_viz.detector import FilterDetection
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.files import replacing
-from skyline_viz.overlay import PATH, TRUTH
 from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.stage import Quantity
 from skyline_viz.system.endings import held_back
-from skyline_viz.system.memory import FULL_MEGAPIXELS
 from skyline_viz.system.names import printable, recording_id, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_recording import log_filter_bank
-from skyline_viz.viewer.blueprints import Contents, detection_blueprint, stages_blueprint
+from skyline_viz.viewer.blueprints import detection_blueprint, stages_blueprint
 from skyline_viz.viewer.column_views import TRUTH_RADIUS, log_columns, log_line
+from skyline_viz.viewer.contents import Contents, Fidelity
 from skyline_viz.viewer.documents import markdown_document
 from skyline_viz.viewer.report import report
 from skyline_viz.viewer.rerun_file import saved
 from skyline_viz.viewer.rerun_internals import let_go_of_orphans
 from skyline_viz.viewer.stage_maps import (
     QUANTITIES,
+    encoded_edges,
     log_detour,
     log_exact_map,
     log_maps,
     shown_pixels,
 )
-from skyline_viz.viewer.value_maps import Quantity
 
 APPLICATION = "skyline-viz"
 """Application id of all recordings: they share what is changed about the layout by hand."""
 
-Fidelity: TypeAlias = Literal["lean", "full"]
-"""How much is kept.
-
-*lean*, for data sets: the photo as JPEG; maps, in 255 levels, of the `stage_maps.LEAN_PIXELS`
-cheapest edge pixels of each column, and of those on the path and on the truth.
-*full*, for a photo: the photo without loss; tensor, cost and detour of every pixel, score and bin
-of every edge pixel, to four digits on hovering, and exact as numbers.
-"""
-
 _BATCH = 1 << 18  # bytes: less than a map
-
-_RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
 
 _LEAN_JPEG = 75  # quality: at 85 the photo takes a third of a lean recording
 
@@ -103,15 +91,6 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
         raise interrupted
 
 
-def fidelity_of(pixels: int, full_megapixels: float = FULL_MEGAPIXELS) -> Fidelity:
-    """How much to keep of photos of so many pixels in all.
-
-    >>> fidelity_of(1388 * 519), fidelity_of(20000 * 2000)
-    ('full', 'lean')
-    """
-    return "full" if pixels <= full_megapixels * 1e6 else "lean"
-
-
 def log_detection(
     recording: rr.RecordingStream,
     detection: Detection,
@@ -143,7 +122,6 @@ def log_detection(
     height = len(photo)
     shown = shown_pixels(detection, truth) if fidelity == "lean" else None
     recording.log(at(entities.PHOTO), _encoded(photo, fidelity))
-    recording.log(at(entities.EDGES), encoded_edges(detection.edges))
     count = log_maps(recording, at, detection, shown)
     unsure = detection.uncertainty()  # while the maps above are being compressed
     verdict = Verdict.of(detection.skyline, unsure.margins, height, truth)
@@ -163,18 +141,10 @@ def log_detection(
     text = report(name, detection, verdict, count)
     recording.log(at(entities.REPORT), markdown_document(text))
     if fidelity == "full":
-        ours = isinstance(detection, FilterDetection)
-        if isinstance(detection, FilterDetection):
+        if detection.bank is not None:
             log_filter_bank(recording, detection.bank, under=under)
         if not under:
-            contents = Contents(
-                height,
-                photo.shape[1],
-                truth=truth is not None,
-                filters=ours,
-                maps=tuple(detection.maps),
-                bank=ours,
-            )
+            contents = Contents.of(detection, fidelity, truth=truth is not None)
             _lay_out(recording, detection_blueprint(contents))
     return verdict
 
@@ -235,12 +205,4 @@ def _encoded(photo: U8, fidelity: Fidelity) -> rr.EncodedImage:
         _, data = cv2.imencode(".jpg", backwards, [cv2.IMWRITE_JPEG_QUALITY, _LEAN_JPEG])
         return rr.EncodedImage(contents=data.tobytes(), media_type="image/jpeg")
     _, data = cv2.imencode(".png", backwards, [cv2.IMWRITE_PNG_COMPRESSION, 1])
-    return rr.EncodedImage(contents=data.tobytes(), media_type="image/png")
-
-
-def encoded_edges(edges: Bool) -> rr.EncodedImage:
-    """Edge map ``(H, W)`` in white on black, one bit a pixel: a quarter of any other encoding."""
-    white = edges.astype(np.uint8) * np.uint8(255)
-    how = [cv2.IMWRITE_PNG_BILEVEL, 1, cv2.IMWRITE_PNG_COMPRESSION, 1]
-    _, data = cv2.imencode(".png", white, [*how, cv2.IMWRITE_PNG_STRATEGY, _RLE])
     return rr.EncodedImage(contents=data.tobytes(), media_type="image/png")

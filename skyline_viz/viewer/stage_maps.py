@@ -1,44 +1,34 @@
-"""The stages between edges and path as maps, and which pixels of them a lean recording shows."""
+"""The stages up to the path as maps, and which pixels of them a lean recording shows."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
+import cv2
 import numba
 import numpy as np
 import numpy.typing as npt
 import rerun as rr
 
-from skyline_viz.arrays import F32, Bool
+from skyline_viz.arrays import F32, Bool, Int
+from skyline_viz.colours import Colour
 from skyline_viz.detection import Detection
-from skyline_viz.detector import FilterDetection
 from skyline_viz.skyline import Skyline
-from skyline_viz.tensor import tensor_map
+from skyline_viz.stage import DETOUR, OURS, Quantity, Stage, of_term
+from skyline_viz.terms import Term
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.bank_recording import bin_legend
-from skyline_viz.viewer.value_maps import COARSE, FINE, Quantity, dense_map, sparse_map
+from skyline_viz.viewer.value_maps import COARSE, FINE, dense_map, sparse_map
+
+_RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
 
 LEAN_PIXELS = 6
 """Edge pixels of each column whose values a lean recording shows at least; all of them, where a
 photo has no more than that on an average."""
 
-STRENGTH = Quantity("strength", "inferno", " grey levels/px", (0.08, 1.0), low=0.0)
-COHERENCE = Quantity("coherence", "viridis", low=0.0, high=1.0)
-ORIENTATION = Quantity("orientation", "twilight_shifted", "°", low=0.0, high=180.0)
-SCORE = Quantity("score", "viridis", low=0.0, high=1.0)
-COST = Quantity("nodal cost", "magma_r", span=(0.0, 0.88), contrast=0.5)
-DETOUR = Quantity("detour", "magma_r", " dearer than the path", (0.0, 0.88), 0.5, low=0.0)
-
-QUANTITIES = {
-    entities.STRENGTH: STRENGTH,
-    entities.COHERENCE: COHERENCE,
-    entities.ORIENTATION: ORIENTATION,
-    entities.SCORE: SCORE,
-    entities.COST: COST,
-    entities.DETOUR: DETOUR,
-}
-"""What the map of each stage shows."""
+QUANTITIES = {entities.of_quantity(one): one for one in (*OURS, DETOUR)}
+"""What the map of each stage of our detector shows."""
 
 
 def log_maps(
@@ -47,63 +37,101 @@ def log_maps(
     detection: Detection,
     shown: Bool | None,
 ) -> int:
-    """Log tensor, bin, score and cost.
+    """Log all stages of a detection that are maps, whatever they are.
 
     Args:
         recording: Where to.
         at: Gives the full path of an entity.
         detection: The detection.
         shown: ``(n,)`` which edge pixels to show, see `shown_pixels`; None shows all of them, adds
-            tensor and cost of all other pixels, and everything exact, as numbers.
+            tensor and cost of all other pixels, the terms of the cost, and everything exact, as
+            numbers.
 
     Returns:
         The number of edge pixels that are shown.
     """
-    kept = slice(None) if shown is None else np.flatnonzero(shown)
+    kept: npt.NDArray[np.intp] | slice = slice(None) if shown is None else np.flatnonzero(shown)
     rows, columns = detection.edge_rows[kept], detection.edge_columns[kept]
-    values: dict[str, F32] = {
-        entities.SCORE: detection.scores[kept],
-        entities.COST: detection.cost[rows, columns],
-    }
-    if isinstance(detection, FilterDetection):
-        values |= {
-            entities.STRENGTH: detection.strength[kept],
-            entities.COHERENCE: detection.coherence[kept],
-            entities.ORIENTATION: detection.orientation[kept],
-        }
-    dense: dict[str, F32] = {}
-    if shown is None:
-        dense = {entities.COST: detection.shown_cost}
-        if isinstance(detection, FilterDetection):
-            tensor = tensor_map(detection.photo)
-            dense |= {
-                entities.STRENGTH: tensor.strength,
-                entities.COHERENCE: tensor.coherence,
-                entities.ORIENTATION: tensor.orientation,
-            }
-        exact = {entity.rsplit("/", 1)[-1]: one for entity, one in values.items()}
-        table: dict[str, Any] = {"edge_row": rows, "edge_column": columns, **exact}
-        if isinstance(detection, FilterDetection):
-            table["bin"] = detection.bins
-        recording.log(at(entities.EDGE_PIXELS), rr.AnyValues(True, **table))
     shape = detection.edges.shape
-    levels = FINE if shown is None else COARSE
-    for entity, at_edges in values.items():
-        if entity in dense:
-            log_exact_map(recording, at(entity), QUANTITIES[entity], dense[entity])
-        else:
-            quantity = QUANTITIES[entity]
-            sparse = sparse_map(quantity, shape, rows, columns, at_edges, levels)
-            sparse.log(recording, at(entity))
-    if isinstance(detection, FilterDetection):
-        bin_map = np.zeros(shape, np.uint16)
-        bin_map[rows, columns] = detection.bins[kept] + 1
-        legend = bin_legend(detection.bank.bins)
-        recording.log(at(entities.BIN), legend, rr.SegmentationImage(bin_map))
-    for stage, further in detection.maps.items():
-        quantity = Quantity(stage)
-        dense_map(quantity, further, levels).log(recording, at(entities.map_of(stage)))
+    table: dict[str, Any] = {"edge_row": rows, "edge_column": columns}
+    for name, stage in detection.stages.items():
+        entity = at(entities.of_quantity(stage.quantity))
+        if stage.where == "mask":
+            recording.log(entity, encoded_edges(np.asarray(stage.values, np.bool_)))
+        elif stage.where == "photo" and stage.quantity.group == "maps":  # whole even if lean
+            levels = FINE if shown is None else COARSE
+            dense_map(stage.quantity, np.asarray(stage.values), levels).log(recording, entity)
+        elif stage.where in ("edges", "photo"):
+            values = stage.values[kept] if stage.where == "edges" else stage.values[rows, columns]
+            table[name] = values
+            _log_stage(
+                recording, entity, stage, values, (shape, rows, columns), exact=shown is None
+            )
+    if shown is None:
+        recording.log(at(entities.EDGE_PIXELS), rr.AnyValues(True, **table))
+        log_terms(recording, at, detection)
     return len(rows)
+
+
+def _log_stage(
+    recording: rr.RecordingStream,
+    entity: str,
+    stage: Stage,
+    values: npt.NDArray[Any],
+    places: tuple[tuple[int, ...], Int, Int],
+    *,
+    exact: bool,
+) -> None:
+    """Log a stage with its values at some edge pixels; if exact also of all others it has."""
+    shape, rows, columns = places
+    if stage.legend:
+        classes = np.zeros(shape, np.uint16)
+        classes[rows, columns] = values + 1
+        recording.log(entity, _words(stage.legend), rr.SegmentationImage(classes))
+        return
+    dense = None
+    if exact:
+        dense = (
+            np.asarray(stage.values) if stage.where == "photo" else stage.dense and stage.dense()
+        )
+    if dense is not None:
+        log_exact_map(recording, entity, stage.quantity, dense)
+        return
+    height, width = shape
+    levels = FINE if exact else COARSE
+    sparse = sparse_map(stage.quantity, (height, width), rows, columns, values, levels)
+    sparse.log(recording, entity)
+
+
+def log_terms(
+    recording: rr.RecordingStream, at: Callable[[str], str], detection: Detection
+) -> None:
+    """Log what each pixel pays for each term of the nodal cost; nothing where it pays nothing."""
+    for term in shown_terms(detection):
+        paid = term.map()
+        paid[paid == 0] = np.nan
+        quantity = of_term(term.name)
+        dense_map(quantity, paid, COARSE).log(recording, at(entities.of_quantity(quantity)))
+
+
+def shown_terms(detection: Detection) -> list[Term]:
+    """The terms of the nodal cost that are not switched off."""
+    return [term for term in detection.cost_model.nodal if term.weight]
+
+
+def encoded_edges(edges: Bool) -> rr.EncodedImage:
+    """Edge map ``(H, W)`` in white on black, one bit a pixel: a quarter of any other encoding."""
+    white = edges.astype(np.uint8) * np.uint8(255)
+    how = [cv2.IMWRITE_PNG_BILEVEL, 1, cv2.IMWRITE_PNG_COMPRESSION, 1]
+    _, data = cv2.imencode(".png", white, [*how, cv2.IMWRITE_PNG_STRATEGY, _RLE])
+    return rr.EncodedImage(contents=data.tobytes(), media_type="image/png")
+
+
+@lru_cache(maxsize=4)
+def _words(legend: tuple[tuple[str, Colour], ...]) -> rr.AnnotationContext:
+    """Words and colour of each class; class 0 is no value."""
+    named = [rr.AnnotationInfo(1 + at, words, colour) for at, (words, colour) in enumerate(legend)]
+    return rr.AnnotationContext([rr.AnnotationInfo(0, "", (0, 0, 0, 0)), *named])
 
 
 def log_detour(

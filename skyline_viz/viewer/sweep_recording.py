@@ -12,18 +12,19 @@ from dataclasses import dataclass
 import numpy as np
 import rerun as rr
 
+from skyline_viz.colours import ALTERNATIVE, PATH
 from skyline_viz.detection import Detection
 from skyline_viz.detector import FilterDetection
 from skyline_viz.diagnosis.sweep import Step, Sweep
-from skyline_viz.evaluation.verdict import Verdict, wrong_segments
-from skyline_viz.overlay import ALTERNATIVE, PATH
+from skyline_viz.evaluation.metrics import TOLERANCE, scaled, wrong_segments
+from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.skyline import Skyline
+from skyline_viz.stage import COST
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import ALTERNATIVE_RADIUS, log_line
 from skyline_viz.viewer.documents import markdown_document
-from skyline_viz.viewer.recording import encoded_edges
 from skyline_viz.viewer.report import listed_segments
-from skyline_viz.viewer.stage_maps import COST, shown_pixels
+from skyline_viz.viewer.stage_maps import encoded_edges, shown_pixels
 from skyline_viz.viewer.value_maps import COARSE, sparse_map
 
 _AXIS = (0x60, 0x60, 0x60)
@@ -153,10 +154,11 @@ def _outcome(
     words = "The same path as now."
     if apart.any():
         segments = wrong_segments(apart, height)
+        allowed = f"{scaled(TOLERANCE, height):.3g} px"
         where = (
-            f"over 1 % of the height in columns {listed_segments(segments)}"
+            f"over {allowed} in columns {listed_segments(segments)}"
             if segments
-            else "nowhere over 1 % of the height"
+            else f"nowhere over {allowed}"
         )
         words = (
             f"Apart from the present path: {apart.mean():.2f} px in the mean, "

@@ -15,47 +15,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import rerun as rr
-from matplotlib import colormaps
 
 from skyline_viz.arrays import Int
+from skyline_viz.colours import coloured
+from skyline_viz.stage import Quantity
 
 COARSE, FINE = 255, 4095
 """Values that a map tells apart: one byte a pixel in lean recordings, two in full ones."""
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """What a map shows."""
-
-    name: str
-    """Its name, which hovering a pixel shows before the value."""
-
-    colours: str = "viridis"
-    """A colour map of matplotlib; perceptually uniform, so that it reads with colour-blindness."""
-
-    unit: str = ""
-    """What stands behind the value; nothing for plain numbers."""
-
-    span: tuple[float, float] = (0.0, 1.0)
-    """Part of the colour map that is used: its black end would be lost on the black background."""
-
-    contrast: float = 1.0
-    """Below 1, small values get more of the colours: they grow with this power of the value."""
-
-    low: float | None = None
-    """Value of the first colour; the smallest one of the map unless given."""
-
-    high: float | None = None
-    """Value of the last colour; the largest one of the map unless given."""
-
-    def label(self, value: float, step: float) -> str:
-        """Name, value and unit, with as many digits as a step can tell apart.
-
-        >>> Quantity("strength", unit=" grey levels/px").label(41.23, step=0.1)
-        'strength 41.2 grey levels/px'
-        """
-        digits = max(0, math.ceil(-math.log10(step)))
-        return f"{self.name} {value:.{digits}f}{self.unit}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,13 +123,15 @@ def _legend(quantity: Quantity, low: float, high: float, levels: int) -> rr.Anno
     step = (high - low) / (levels - 1)
     first, last = quantity.span
     places = first + (last - first) * np.linspace(0, 1, levels) ** quantity.contrast
-    colours = colormaps[quantity.colours](places, bytes=True)
+    colours = coloured(quantity.colour_map, places)
     return rr.AnnotationContext(
         [
             rr.AnnotationInfo(0, "", (0, 0, 0, 0)),
             *(
-                rr.AnnotationInfo(1 + level, quantity.label(low + level * step, step), tuple(rgba))
-                for level, rgba in enumerate(colours.tolist())
+                rr.AnnotationInfo(
+                    1 + level, quantity.label(low + level * step, step), tuple(colour)
+                )
+                for level, colour in enumerate(colours.tolist())
             ),
         ]
     )

@@ -8,8 +8,9 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.cli import main
 from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
-from skyline_viz.gallery.store import Gallery, Shot
+from skyline_viz.gallery.store import Gallery
 
 
 @pytest.fixture
@@ -42,7 +43,7 @@ def built(tmp_path_factory):
     photo[30:] = 60
     for name in "abc":
         sv.write_photo(folder / f"{name}.png", photo)
-    shots = [Shot(name, DatasetItem(name, folder / f"{name}.png")) for name in "abc"]
+    shots = [NamedItem(name, DatasetItem(name, folder / f"{name}.png")) for name in "abc"]
     list(Gallery(folder / "g").build(shots, sv.Detector(), workers=1))
     return folder / "g"
 

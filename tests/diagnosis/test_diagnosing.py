@@ -9,7 +9,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.cli import main
 from skyline_viz.diagnosis.counterfactual import REPAIRED
-from skyline_viz.diagnosis.diagnosing import diagnose, failing_runs
+from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline, SkylineError
 from testing import SAMPLES
@@ -131,13 +131,6 @@ def test_columns_that_are_not_visible_are_not_diagnosed(hazy):
     hidden = Skyline(rows=truth.rows, visible=np.arange(truth.width) < 100)
     (segment,) = diagnose(detection, hidden).segments
     assert segment.columns[1] < 100
-
-
-def test_a_few_right_columns_do_not_end_a_segment():
-    wrong = np.zeros(30, bool)
-    wrong[[3, 4, 9, 20]] = True
-    assert failing_runs(wrong) == [(3, 9), (20, 20)]
-    assert failing_runs(wrong & False) == []
 
 
 def test_a_truth_of_another_width_is_refused(hazy):

@@ -10,7 +10,15 @@ from skyline_viz.config import FILTER_SIZES, DetectorConfig
 from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
 from testing.recordings import banks_of_sizes, scene
 
-SETTINGS = ("canny_thresholds", "v", "delta", "link_weight")
+SETTINGS = (
+    "canny_thresholds",
+    "v",
+    "non_edge_cost",
+    "clear_sky",
+    "terrain_weight",
+    "link_weight",
+    "delta",
+)
 CONFIGS = {
     "default": DetectorConfig(),
     "paper": DetectorConfig.paper(),
@@ -61,7 +69,11 @@ def test_every_value_gives_what_a_detection_of_its_own_gives(found, number):
 
 
 def test_the_values_around_the_defaults(found):
-    thresholds, v, delta, link_weight = setting_sweeps(found[0])
+    sweeps = {sweep.timeline: sweep for sweep in setting_sweeps(found[0])}
+    thresholds, v, clear_sky, link_weight, delta = (
+        sweeps[name] for name in ("canny_thresholds", "v", "clear_sky", "link_weight", "delta")
+    )
+    assert [step.at for step in clear_sky.steps] == list(range(0, 91, 6))
     assert [step.at for step in thresholds.steps] == list(range(30, 201, 10))
     assert [step.at for step in v.steps] == list(range(0, 101, 5))
     assert [step.at for step in delta.steps] == list(range(1, 13))
@@ -78,8 +90,9 @@ def test_only_one_setting_changes(found):
 
 
 def test_stages_that_a_setting_leaves_are_not_computed_again(found):
-    _, v, delta, link_weight = setting_sweeps(found[0])
-    for sweep in (delta, link_weight):
+    sweeps = setting_sweeps(found[0])
+    v = sweeps[1]
+    for sweep in sweeps[-2:]:
         for _, detection in sweep.detections(found[0]):
             assert detection.cost is found[0].cost
             assert [stage for stage, took in detection.seconds.items() if took] == ["path"]

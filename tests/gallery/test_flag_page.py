@@ -10,10 +10,11 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.gallery import flag_page as module
 from skyline_viz.gallery.flag_page import POLICY, about, flag_page
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
-from skyline_viz.gallery.store import Entry, Gallery, Shot
+from skyline_viz.gallery.store import Entry, Gallery
 
 NAMES = ["hash#1", "plain"]
 
@@ -24,7 +25,7 @@ def built(tmp_path_factory):
     photo = np.full((60, 70, 3), 200, np.uint8)
     photo[30:] = 60
     sv.write_photo(folder / "a.png", photo)
-    shots = [Shot(name, DatasetItem(name, folder / "a.png")) for name in NAMES]
+    shots = [NamedItem(name, DatasetItem(name, folder / "a.png")) for name in NAMES]
     gallery = Gallery(folder / "g")
     return gallery, list(gallery.build(shots, sv.Detector(), workers=1))
 

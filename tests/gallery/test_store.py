@@ -9,9 +9,11 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.command_line.inputs import collect
 from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.named_item import NamedItem
+from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.gallery.documents import GalleryError
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
-from skyline_viz.gallery.store import VERSION, Entry, Gallery, Shot, by_need
+from skyline_viz.gallery.store import VERSION, Entry, Gallery, by_need
 from skyline_viz.running.batch import Failure
 from skyline_viz.viewer import entities
 from testing.recordings import Read, verify
@@ -39,7 +41,7 @@ def build(gallery, folder, detector=None):
     """Outcomes, and the names of the recordings that were written."""
     recordings = gallery.folder / "recordings"
     before = {path: path.stat().st_mtime_ns for path in recordings.glob("*.rrd")}
-    shots = [Shot(one.name, one.item) for one in collect([folder])]
+    shots = collect([folder])
     outcomes = list(gallery.build(shots, detector or sv.Detector(), workers=1))
     after = {path: path.stat().st_mtime_ns for path in recordings.glob("*.rrd")}
     return outcomes, sorted(path.stem for path in after if after[path] != before.get(path))
@@ -53,9 +55,9 @@ def test_a_gallery_holds_a_whole_recording_and_an_entry_a_photo(photos, tmp_path
     for entry in outcomes:
         verify(gallery.recording(entry.name))
         read = Read(gallery.recording(entry.name))
-        assert read.array("metrics/a_err", "scalars") == pytest.approx([entry.a_err])
+        assert read.array("metrics/a_err", "scalars") == pytest.approx([entry.verdict.a_err])
     assert [one.name for one in by_need(outcomes)] == ["p1", "p2", "p0"]
-    assert [one.a_err for one in by_need(outcomes)] == pytest.approx([9, 2, 0])
+    assert [one.verdict.a_err for one in by_need(outcomes)] == pytest.approx([9, 2, 0])
     assert by_need(outcomes)[0].wrong == "0 to 69"
     assert {(one.height, one.width) for one in outcomes} == {(60, 70)}
 
@@ -111,7 +113,7 @@ def test_nothing_is_done_twice(photos, tmp_path):
 def test_memory_does_not_grow_with_the_number_of_photos(tmp_path):
     photo = np.random.default_rng(0).integers(0, 255, (300, 400, 3)).astype(np.uint8)
     sv.write_photo(tmp_path / "a.png", photo)
-    shots = [Shot(f"p{number}", DatasetItem("a", tmp_path / "a.png")) for number in range(120)]
+    shots = [NamedItem(f"p{number}", DatasetItem("a", tmp_path / "a.png")) for number in range(120)]
     outcomes = Gallery(tmp_path / "g").build(shots, sv.Detector(), workers=1)
     pages = [int(Path("/proc/self/statm").read_text().split()[1]) for _ in outcomes]
     assert (pages[-1] - pages[40]) * 4096 < 40e6  # each recording holds 2 MB before it is written
@@ -169,7 +171,7 @@ def test_what_is_lost_of_a_photo_is_made_again(photos, tmp_path, file):
 
 def test_a_run_that_is_cut_short_goes_on_where_it_stopped(photos, tmp_path):
     gallery = Gallery(tmp_path / "g")
-    shots = [Shot(one.name, one.item) for one in collect([photos])]
+    shots = collect([photos])
     outcomes = gallery.build(shots, sv.Detector(), workers=1)
     next(outcomes)
     outcomes.close()
@@ -199,10 +201,8 @@ def test_photos_that_are_gone_leave_the_gallery_but_not_the_reviews(photos, tmp_
 
 def test_without_a_truth_the_least_sure_come_first():
     entries = [
-        Entry("a", "", "", 9, 9, margin=3.0, unsure_column=0),
-        Entry("b", "", "", 9, 9, margin=0.5, unsure_column=0),
-        Entry("c", "", "", 9, 9, margin=9.0, unsure_column=0, a_err=0.1),
-        Entry("d", "", "", 9, 9, margin=9.0, unsure_column=0, a_err=7.0),
+        Entry(name, "", "", 9, 9, Verdict(a_err, None, None, None, None, margin, 0))
+        for name, margin, a_err in (("a", 3, None), ("b", 0.5, None), ("c", 9, 0.1), ("d", 9, 7))
     ]
     assert [one.name for one in by_need(entries)] == ["d", "c", "b", "a"]
 
@@ -224,6 +224,6 @@ def test_an_index_with_unknown_fields_is_damaged(tmp_path):
 
 def test_items_can_be_put_in_by_hand(tmp_path):
     sv.write_photo(tmp_path / "a.png", scene(20))
-    shot = Shot("mine", DatasetItem("a", Path(tmp_path / "a.png")))
+    shot = NamedItem("mine", DatasetItem("a", Path(tmp_path / "a.png")))
     (entry,) = Gallery(tmp_path / "g").build([shot], sv.Detector(), workers=1)
-    assert (entry.name, entry.a_err) == ("mine", None)
+    assert (entry.name, entry.verdict.a_err) == ("mine", None)

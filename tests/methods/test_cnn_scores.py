@@ -132,7 +132,7 @@ def test_detections_hold_together(trained, name):
     dense = trained.dense_score(SCENE.photo)
     assert detection.method == name
     np.testing.assert_array_equal(detection.scores, dense[detection.edges])
-    assert detection.edge_rest.min() > -1e-6
+    assert detection.cost_model.edge_rest.min() > -1e-6
     shifted = Skyline(rows=np.clip(SCENE.truth.rows + 25 * (np.arange(150) > 60), 0, 89))
     assert not diagnose(detection, shifted).right
 

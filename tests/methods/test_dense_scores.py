@@ -91,7 +91,7 @@ def test_detections_hold_together(trained, name):
     np.testing.assert_array_equal(detection.scores, dense[detection.edges])
     assert 0 <= dense.min() < 0.1 < 0.9 < dense.max() <= 1
     assert ("dense score" in detection.maps) == (not detection.edges.all())
-    assert detection.edge_rest.min() > -1e-6
+    assert detection.cost_model.edge_rest.min() > -1e-6
     assert (detection.cost <= detection.non_edge_cost).all()
 
 

@@ -106,7 +106,7 @@ def test_edges_below_a_half_are_ruled_out_and_the_others_pay_for_their_score(
     assert 0.01 < nodes.mean() < 0.9
     assert (cost[~nodes] >= method.gap_cost).all()
     assert (cost[~nodes] == RULED_OUT).any()
-    rest = detection.edge_rest[nodes]
+    rest = detection.cost_model.edge_rest[nodes]
     if method.name == "sift-hog-edges":
         assert (cost[nodes] == 1).all()
     elif method.name == "sift-hog-scores":

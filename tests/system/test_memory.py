@@ -9,7 +9,7 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 from annotate.cli import main as label
 from annotate.work import open_photos
 from annotate.work import workbench as benches
-from annotate.work.open_photos import OPEN_AT_MOST, SESSION, OpenPhotos, SmallPictures
+from annotate.work.open_photos import KEPT, OPEN_AT_MOST, SESSION, OpenPhotos, SmallPictures
 from skyline_viz.cli import main
 from skyline_viz.command_line import sizes
 from skyline_viz.detector import Detector
@@ -147,7 +147,7 @@ def test_the_next_photo_is_opened_only_where_it_fits(tmp_path, monkeypatch):
 def test_a_detection_is_kept_only_where_it_fits_and_goes_with_its_photo(tmp_path, monkeypatch):
     one = 48 * 70 * SESSION
     write_hills(tmp_path, count=2)
-    for budget, kept in ((int(1.2 * one), False), (10 * one, True)):
+    for budget, kept in ((int(1.2 * one), False), (5 * one, True)):
         monkeypatch.setattr(benches, "OpenPhotos", lambda budget=budget: OpenPhotos(budget))
         bench = workbench(tmp_path)
         try:
@@ -159,6 +159,18 @@ def test_a_detection_is_kept_only_where_it_fits_and_goes_with_its_photo(tmp_path
             assert bench._open.total <= with_it + one
         finally:
             bench.close()
+
+
+def test_open_photos_of_usual_size_keep_their_detection(tmp_path, monkeypatch):
+    bench = workbench(write_hills(tmp_path, count=2, height=200, width=300))
+    try:
+        found = [bench.session(photo).wire.detection for photo in (1, 2)]
+        monkeypatch.setattr(Detector, "detect", None)  # nothing is detected again
+        assert [bench.detection(photo) for photo in (1, 2)] == found
+        assert all(open_photos.detection_bytes(one) <= 60_000 * KEPT for one in found)
+        assert bench._open.total == 2 * 60_000 * (SESSION + KEPT)
+    finally:
+        bench.close()
 
 
 def test_a_photo_that_does_not_fit_into_the_memory_is_refused_with_what_it_needs(

@@ -9,7 +9,7 @@ import skyline_viz as sv
 from skyline_viz.evaluation.metrics import column_errors
 from skyline_viz.tensor import tensor_map
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.bank_pictures import bin_label, cell_box
+from skyline_viz.viewer.bank_pictures import cell_box
 from skyline_viz.viewer.bank_recording import log_path_bins, path_bins
 from skyline_viz.viewer.blueprints import TABS
 from skyline_viz.viewer.column_views import path_costs
@@ -133,7 +133,7 @@ def test_score_and_bin_are_told_at_edges_only(full, found):
     assert np.array_equal(bins > 0, detection.edges)
     assert np.array_equal(bins[detection.edge_rows, detection.edge_columns], detection.bins + 1)
     labels = full.labels(entities.BIN)
-    assert all(labels[1 + one] == bin_label(one, detection.bank.bins) for one in range(288))
+    assert all(labels[1 + one] == detection.bank.bins.label(one) for one in range(288))
 
 
 def test_the_lines_have_the_rows_of_the_skylines(full, found):

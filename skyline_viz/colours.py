@@ -1,0 +1,77 @@
+"""The project's colours: lines, and colour maps of values, the same wherever they are shown."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TypeAlias
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.arrays import U8, read_only
+
+Colour: TypeAlias = tuple[int, int, int]
+
+PATH: Colour = (0xFF, 0x2D, 0x95)
+"""Magenta: the detected skyline."""
+
+TRUTH: Colour = (0x00, 0xD1, 0xB2)
+"""Turquoise: the truth."""
+
+ALTERNATIVE: Colour = (0xFF, 0xD4, 0x00)
+"""Yellow: another line to compare with."""
+
+ANCHOR: Colour = (0xFF, 0xFF, 0xFF)
+"""White: pixels that an annotator has fixed."""
+
+HALO: Colour = (20, 20, 20)
+"""What surrounds a line, so that it reads on snow as well as on rock."""
+
+_UNIFORM = {
+    "viridis": cv2.COLORMAP_VIRIDIS,
+    "inferno": cv2.COLORMAP_INFERNO,
+    "magma": cv2.COLORMAP_MAGMA,
+    "twilight_shifted": cv2.COLORMAP_TWILIGHT_SHIFTED,
+}
+
+_BLUE_TO_RED = (
+    "053061", "2166AC", "4393C3", "92C5DE", "D1E5F0", "F7F7F7",
+    "FDDBC7", "F4A582", "D6604D", "B2182B", "67001F",
+)  # fmt: skip  # ColorBrewer's RdBu, which colour-vision deficiency leaves two-sided
+
+
+@lru_cache(maxsize=16)
+def colour_map(name: str) -> U8:
+    """A colour map as a table ``(256, 3)`` uint8 RGB.
+
+    ``viridis``, ``inferno`` and ``magma`` are perceptually uniform, ``twilight_shifted`` is cyclic,
+    ``blue_red`` has white in its middle, and ``gray`` is what it says. The ending ``_r`` turns a
+    map round.
+
+    >>> colour_map("blue_red")[[0, 255]].tolist()
+    [[5, 48, 97], [103, 0, 31]]
+
+    Raises:
+        KeyError: There is no such map.
+    """
+    if name.endswith("_r"):
+        table = colour_map(name[:-2])[::-1].copy()
+    elif name == "blue_red":
+        anchors = np.array([[*bytes.fromhex(one)] for one in _BLUE_TO_RED])
+        places = np.linspace(0, len(anchors) - 1, 256)
+        between = [np.interp(places, np.arange(len(anchors)), one) for one in anchors.T]
+        table = np.rint(np.stack(between, axis=1)).astype(np.uint8)
+    elif name == "gray":
+        table = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
+    else:
+        steps = np.arange(256, dtype=np.uint8)[:, None]
+        table = cv2.applyColorMap(steps, _UNIFORM[name])[:, 0, ::-1].copy()
+    read_only(table)
+    return table
+
+
+def coloured(name: str, values: npt.NDArray[np.floating]) -> U8:
+    """Colours ``(..., 3)`` uint8 RGB of values in [0, 1]; those beyond take the end's colour."""
+    colours: U8 = colour_map(name)[np.clip(values * 256, 0, 255).astype(np.uint8)]
+    return colours

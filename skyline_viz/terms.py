@@ -1,0 +1,320 @@
+"""The terms of the nodal cost: what a pixel pays, one summand at a time.
+
+Every term knows its weight and the setting that it comes from, adds itself to the cost of a photo,
+and says what it alone comes to: at some pixels, along a line, as a map. `skyline_viz.cost` lists
+the terms of our detector, and puts them together.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar, Literal, TypeAlias
+
+import cv2
+import numba
+import numpy as np
+import numpy.typing as npt
+
+from skyline_viz.arrays import F32, F64, U8, Bool, Int
+from skyline_viz.edges import edge_index
+from skyline_viz.terrain import BLOCK, terrain_above
+
+Places: TypeAlias = npt.NDArray[np.integer]
+"""Rows or columns of pixels ``(k,)``."""
+
+CLEAR_SKY_ROWS = 3
+"""Edge pixels this near above a pixel, in rows, do not count against it."""
+
+CLEAR_SKY_COLUMNS = 9
+"""Columns over which the edge pixels above a pixel are averaged."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Term:
+    """One summand of the nodal cost of a photo: the base of all others.
+
+    A term of one's own says in `add` what each pixel pays; all else follows from it.
+    """
+
+    name: str
+    """What it is called, wherever it is shown."""
+
+    weight: float
+    """Its weight; 0 switches it off."""
+
+    setting: str = ""
+    """The field of `DetectorConfig` that the weight comes from; nothing without one."""
+
+    colour: str = "#F0E442"
+    """Its colour where terms are stacked; people with colour-vision deficiency tell the colours of
+    the terms apart."""
+
+    edges: Bool
+    """``(H, W)`` edge map of the photo."""
+
+    paid_by: ClassVar[Literal["edges", "others", "all"]] = "all"
+    """Which pixels pay: edge pixels, all the others, or all."""
+
+    def add(self, cost: F32) -> None:
+        """Add what each pixel pays to nodal costs ``(H, W)``, in place."""
+        raise NotImplementedError
+
+    def of_edges(self) -> npt.NDArray[np.floating]:
+        """What each edge pixel pays, ``(n,)`` row by row, where no other pixels do."""
+        return np.zeros(np.count_nonzero(self.edges), np.float32)
+
+    def map(self) -> F32:
+        """What each pixel pays, ``(H, W)``."""
+        cost = np.zeros(self.edges.shape[::-1], np.float32).T  # columns lie together, as in a cost
+        if self.weight:
+            self.add(cost)
+        return cost
+
+    def at(self, rows: Places, columns: Places) -> F64:
+        """What pixels ``(k,)`` pay."""
+        paid: F64 = self.map()[rows, columns].astype(np.float64)
+        return paid
+
+    def along(self, rows: Int) -> F64:
+        """What a line ``(W,)`` pays in each column."""
+        return self.at(rows, np.arange(len(rows)))
+
+    def answer(self, added: Bool) -> F32 | None:
+        """What changes where there are more edges, besides at these pixels; None for nothing.
+
+        Args:
+            added: ``(H, w)`` further edge pixels in some neighbouring columns; there are none near
+                its first and last column unless the photo ends there.
+
+        Returns:
+            ``(H, w)`` change of the nodal costs.
+        """
+        del added
+        return None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EdgeTerm(Term):
+    """What edge pixels pay for what they lack: ``weight (1 - good)``."""
+
+    good: F32
+    """``(n,)`` how good each edge pixel is, in [0, 1]."""
+
+    paid_by = "edges"
+
+    def of_edges(self) -> F32:
+        """See `Term.of_edges`."""
+        values: F32 = np.float32(self.weight) * (1 - self.good)
+        return values
+
+    def add(self, cost: F32) -> None:
+        """See `Term.add`."""
+        cost[self.edges] += self.of_edges()
+
+    def at(self, rows: Places, columns: Places) -> F64:
+        """See `Term.at`."""
+        pixels = edge_index(self.edges)[rows, columns]
+        paid: F64 = np.where(pixels >= 0, 1.0, 0.0)
+        paid[pixels >= 0] *= self.of_edges()[pixels[pixels >= 0]]
+        return paid
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class NoEdge(Term):
+    """What pixels pay that are no edge."""
+
+    paid_by = "others"
+
+    def add(self, cost: F32) -> None:
+        """See `Term.add`."""
+        cost[~self.edges] += np.float32(self.weight)
+
+    def at(self, rows: Places, columns: Places) -> F64:
+        """See `Term.at`."""
+        return np.where(self.edges[rows, columns], 0.0, float(self.weight))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MapTerm(Term):
+    """What pixels pay by a map: ``weight values``."""
+
+    values: F32
+    """``(H, W)``."""
+
+    def add(self, cost: F32) -> None:
+        """See `Term.add`."""
+        cost += np.float32(self.weight) * self.values
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ClearSky(Term):
+    """What each edge pixel above a pixel adds to its cost: above a skyline is nothing but sky.
+
+    Edge pixels up to `CLEAR_SKY_ROWS` above do not count, and their number is the mean over
+    `CLEAR_SKY_COLUMNS` columns, as far as these are inside the photo.
+    """
+
+    def add(self, cost: F32) -> None:
+        """See `Term.add`."""
+        self._add(cost, self.edges)
+
+    def answer(self, added: Bool) -> F32:
+        """See `Term.answer`: the term is linear in the edges."""
+        change = np.zeros(added.shape[::-1], np.float32).T
+        self._add(change, added)
+        return change
+
+    def _add(self, cost: F32, edges: Bool) -> None:
+        _add_clear_sky(cost.T, cv2.transpose(edges.view(np.uint8)), np.float32(self.weight))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Terrain(Term):
+    """What a pixel pays for what looks like terrain above it; less than nothing for sky."""
+
+    photo: U8
+    """``(H, W, 3)`` uint8 RGB."""
+
+    model: F32
+    """``(FEATURES,)`` weights of the linear model, see `terrain.terrain_above`."""
+
+    @cached_property
+    def above(self) -> F32:
+        """``(h, w)`` how much terrain seems to lie above the centre of each block."""
+        return terrain_above(self.photo, self.edges, self.model)
+
+    def add(self, cost: F32) -> None:
+        """See `Term.add`: between the centres of blocks values are interpolated."""
+        add_blocks(cost, self.above, self.weight, BLOCK)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class GivenEdges(Term):
+    """What edge pixels pay besides their score, where a method made its costs in its own way."""
+
+    cost: F32
+    """``(H, W)`` the nodal costs."""
+
+    score: EdgeTerm
+    """What they pay for their score."""
+
+    paid_by = "edges"
+
+    def of_edges(self) -> F64:
+        """See `Term.of_edges`."""
+        whole = self.cost[self.edges].astype(np.float64)
+        rest: F64 = whole - self.score.weight * (1 - self.score.good.astype(np.float64))
+        return rest
+
+    def add(self, cost: F32) -> None:
+        """See `Term.add`."""
+        cost[self.edges] += self.of_edges()
+
+    def at(self, rows: Places, columns: Places) -> F64:
+        """See `Term.at`."""
+        rest = self.cost[rows, columns].astype(np.float64) - self.score.at(rows, columns)
+        return np.where(self.edges[rows, columns], rest, 0.0)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class GivenOthers(Term):
+    """What pixels pay that are no candidates, where a method made its costs in its own way."""
+
+    cost: F32
+    """``(H, W)`` the nodal costs."""
+
+    paid_by = "others"
+
+    def add(self, cost: F32) -> None:
+        """See `Term.add`."""
+        cost += np.where(self.edges, np.float32(0), self.cost)
+
+    def at(self, rows: Places, columns: Places) -> F64:
+        """See `Term.at`."""
+        return np.where(self.edges[rows, columns], 0.0, self.cost[rows, columns].astype(np.float64))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Link:
+    """The link cost (equation 3): ``weight |change of row|`` between neighbouring columns."""
+
+    name: ClassVar[str] = "link"
+    setting: ClassVar[str] = "link_weight"
+    colour: ClassVar[str] = "#999999"
+
+    weight: float
+    """Link cost of one pixel of row change."""
+
+    delta: int
+    """Largest change of row between neighbouring columns, in pixels."""
+
+    def along(self, rows: Int) -> F64:
+        """What a line ``(W,)`` pays to reach each column, nothing in the first."""
+        change = np.diff(rows, prepend=rows[:1])
+        paid: F64 = self.weight * np.abs(change).astype(np.float64)
+        return paid
+
+
+def add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
+    """Add a weighted map of blocks to nodal costs, in place, interpolated between centres.
+
+    Args:
+        cost: ``(H, W)``, columns together in memory as `cost.CostModel.total` gives it.
+        blocks: ``(h, w)`` one value a block.
+        weight: Its weight.
+        side: Side of a block, in pixels.
+    """
+    _add_blocks(cost.T, np.ascontiguousarray(blocks.T), np.float32(weight), side)
+
+
+@numba.njit(cache=True, nogil=True)
+def _add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
+    """`add_blocks` with both arrays column by column, ``(W, H)`` and ``(w, h)``."""
+    width, height = cost.shape
+    left, right, sideways = _between_centres(width, blocks.shape[0], side)
+    above, below, downwards = _between_centres(height, blocks.shape[1], side)
+    line = np.empty(blocks.shape[1], np.float32)
+    for column in range(width):
+        here = blocks[left[column]]
+        there = blocks[right[column]]
+        for block in range(line.size):
+            line[block] = weight * (here[block] + sideways[column] * (there[block] - here[block]))
+        for row in range(height):
+            over = line[above[row]]
+            cost[column, row] += over + downwards[row] * (line[below[row]] - over)
+
+
+@numba.njit(cache=True, nogil=True)
+def _between_centres(length: int, blocks: int, side: int) -> tuple[Int, Int, F32]:
+    """For each pixel of an axis the blocks before and after it, and how far it is on the way."""
+    before = np.empty(length, np.int32)
+    after = np.empty(length, np.int32)
+    share = np.empty(length, np.float32)
+    for pixel in range(length):
+        place = min(max((pixel + 0.5) / side - 0.5, 0.0), blocks - 1.0)
+        before[pixel] = int(place)
+        after[pixel] = min(before[pixel] + 1, blocks - 1)
+        share[pixel] = place - before[pixel]
+    return before, after, share
+
+
+@numba.njit(cache=True, nogil=True)
+def _add_clear_sky(cost: F32, edges: U8, weight: float) -> None:
+    """Add the weighted number of edge pixels above, averaged over columns; both ``(W, H)``."""
+    width, height = cost.shape
+    half = CLEAR_SKY_COLUMNS // 2
+    window = np.zeros(height, np.int32)  # edge pixels of the columns around, row by row
+    for column in range(min(half, width)):
+        window += edges[column]
+    for column in range(width):
+        if column + half < width:
+            window += edges[column + half]
+        if column - half - 1 >= 0:
+            window -= edges[column - half - 1]
+        in_window = min(column + half, width - 1) - max(column - half, 0) + 1
+        step = weight / np.float32(in_window)
+        above = 0
+        for row in range(CLEAR_SKY_ROWS + 1, height):
+            above += window[row - CLEAR_SKY_ROWS - 1]
+            cost[column, row] += step * above

@@ -1,0 +1,114 @@
+"""What a recording holds, which decides how the viewer lays it out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+from skyline_viz.detection import Detection
+from skyline_viz.stage import OURS, Quantity, of_term
+from skyline_viz.system.memory import FULL_MEGAPIXELS
+from skyline_viz.viewer.stage_maps import shown_terms
+
+Fidelity: TypeAlias = Literal["lean", "full"]
+"""How much is kept.
+
+*lean*, for data sets: the photo as JPEG; maps, in 255 levels, of the `stage_maps.LEAN_PIXELS`
+cheapest edge pixels of each column, and of those on the path and on the truth.
+*full*, for a photo: the photo without loss; tensor, cost and detour of every pixel, score and bin
+of every edge pixel, to four digits on hovering, and exact as numbers.
+"""
+
+
+def fidelity_of(pixels: int, full_megapixels: float = FULL_MEGAPIXELS) -> Fidelity:
+    """How much to keep of photos of so many pixels in all.
+
+    >>> fidelity_of(1388 * 519), fidelity_of(20000 * 2000)
+    ('full', 'lean')
+    """
+    return "full" if pixels <= full_megapixels * 1e6 else "lean"
+
+
+@dataclass(frozen=True)
+class MethodContents:
+    """What a recording holds of another method."""
+
+    name: str
+    """Its name."""
+
+    stages: tuple[Quantity, ...] = OURS
+    """Its stages, in their order."""
+
+    @classmethod
+    def of(cls, detection: Detection) -> MethodContents:
+        """What a recording holds of a detection; where all pixels are edges, none are shown."""
+        everywhere = bool(detection.edges.all())
+        shown = [one for one in _shown(detection) if not (everywhere and one.name == "edges")]
+        return cls(detection.method, tuple(shown))
+
+
+@dataclass(frozen=True)
+class Contents:
+    """What a recording holds, which decides about its views."""
+
+    height: int
+    """Rows of the photo, of the first one where there are several."""
+
+    width: int
+    """Its columns."""
+
+    one_size: bool = True
+    """Whether all photos are as large as that: then views show a photo's pixels and no more. Else
+    each view fits itself to what is in it."""
+
+    truth: bool = False
+    """Whether there is a truth."""
+
+    stages: tuple[Quantity, ...] = OURS
+    """The stages that are in it, in their order; those of our detector unless given."""
+
+    terms: tuple[Quantity, ...] = ()
+    """The terms of the nodal cost whose maps are in it."""
+
+    bank: bool = True
+    """Whether the filter bank is in it."""
+
+    path_bins: bool = False
+    """Whether the `entities.COLUMN` timeline is in it."""
+
+    photos: int = 1
+    """Number of photos on the `entities.IMAGE` timeline."""
+
+    diagnosed: bool = False
+    """Whether there is a diagnosis with failing segments."""
+
+    stacked_costs: bool = True
+    """Whether the picture of what path and truth pay is in it, where there is a diagnosis."""
+
+    compared: str = ""
+    """Name of the second detection; nothing without one."""
+
+    methods: tuple[MethodContents, ...] = ()
+    """Other methods on the photo."""
+
+    swept: str = ""
+    """Timeline of the setting that is swept first; nothing without a sweep."""
+
+    @classmethod
+    def of(cls, detection: Detection, fidelity: Fidelity, **more: Any) -> Contents:  # noqa: ANN401
+        """What a recording of a detection holds.
+
+        Args:
+            detection: The detection, of the first photo where there are several.
+            fidelity: How much is kept of it.
+            more: What else there is to say, by the names of the fields.
+        """
+        height, width = detection.edges.shape
+        full = fidelity == "full"
+        terms = tuple(of_term(term.name) for term in shown_terms(detection)) if full else ()
+        bank = full and detection.bank is not None
+        return cls(height, width, stages=_shown(detection), terms=terms, bank=bank, **more)
+
+
+def _shown(detection: Detection) -> tuple[Quantity, ...]:
+    return tuple(one.quantity for one in detection.stages.values() if one.quantity.tabs)

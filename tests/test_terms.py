@@ -1,0 +1,151 @@
+"""Terms of the cost: each against plain Python, and its pixels against its map."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from skyline_viz.terms import (
+    ClearSky,
+    EdgeTerm,
+    GivenEdges,
+    GivenOthers,
+    Link,
+    MapTerm,
+    NoEdge,
+    Term,
+    add_blocks,
+)
+from testing.examples import examples
+
+STEADY = examples(60)
+
+
+def some_edges(seed, height=16, width=22):
+    return np.random.default_rng(seed).random((height, width)) < 0.3
+
+
+def slow_clear_sky(edges, weight):
+    """Weighted mean number of edge pixels more than 3 rows above, over 9 columns."""
+    height, width = edges.shape
+    added = np.zeros(edges.shape)
+    for row in range(height):
+        for column in range(width):
+            window = edges[: max(row - 3, 0), max(column - 4, 0) : column + 5]
+            added[row, column] = weight * window.sum() / window.shape[1]
+    return added
+
+
+def clear_sky(edges, weight):
+    return ClearSky(name="clear sky", weight=weight, edges=edges).map()
+
+
+# All of them
+
+
+def terms(edges):
+    rng = np.random.default_rng(0)
+    good = rng.random(edges.sum()).astype(np.float32)
+    values = rng.random(edges.shape).astype(np.float32)
+    score = EdgeTerm(name="score", weight=0.5, edges=edges, good=good)
+    return [
+        score,
+        NoEdge(name="no edge", weight=2.0, edges=edges),
+        ClearSky(name="clear sky", weight=0.1, edges=edges),
+        MapTerm(name="map", weight=3.0, edges=edges, values=values),
+        GivenEdges(name="edge", weight=1.0, edges=edges, cost=values, score=score),
+        GivenOthers(name="others", weight=1.0, edges=edges, cost=values),
+    ]
+
+
+@pytest.mark.parametrize("number", range(6))
+def test_pixels_pay_what_the_map_says(number):
+    edges = some_edges(1)
+    term = terms(edges)[number]
+    rows, columns = np.indices(edges.shape).reshape(2, -1)
+    np.testing.assert_allclose(term.at(rows, columns), term.map().ravel(), atol=1e-6)
+    line = np.arange(22) % 16
+    np.testing.assert_allclose(term.along(line), term.map()[line, np.arange(22)], atol=1e-6)
+    if term.paid_by == "edges":
+        np.testing.assert_allclose(term.of_edges(), term.map()[edges], atol=1e-6)
+        assert not term.map()[~edges].any()
+    elif term.paid_by == "others":
+        assert not term.map()[edges].any()
+
+
+def test_a_term_says_what_it_adds_and_all_else_follows():
+    class One(Term):
+        def add(self, cost):
+            cost += self.weight
+
+    term = One(name="one", weight=2.0, edges=some_edges(1))
+    assert (term.map() == 2).all()
+    assert term.answer(some_edges(2)) is None
+    assert not One(name="one", weight=0.0, edges=some_edges(1)).map().any()
+    with pytest.raises(NotImplementedError):
+        Term(name="none", weight=1.0, edges=some_edges(1)).map()
+
+
+def test_a_line_pays_for_each_change_of_row():
+    paid = Link(weight=0.5, delta=4).along(np.array([3, 3, 5, 4], np.int32))
+    assert paid.tolist() == [0, 0, 1, 0.5]
+
+
+# Clear sky
+
+
+@STEADY
+@given(st.integers(1, 16), st.integers(1, 22), st.integers(0, 2**32 - 1), st.floats(0.001, 2))
+def test_clear_sky_against_plain_python(height, width, seed, weight):
+    edges = some_edges(seed, height, width)
+    added = clear_sky(edges, weight)
+    assert np.allclose(added, slow_clear_sky(edges, weight), rtol=1e-4, atol=1e-5)
+
+
+def test_an_edge_is_felt_four_rows_below():
+    edges = np.zeros((12, 30), bool)
+    edges[2, 15] = True
+    added = clear_sky(edges, 0.9)
+    assert np.flatnonzero(added.any(axis=1)).tolist() == list(range(6, 12))
+    assert np.flatnonzero(added.any(axis=0)).tolist() == list(range(11, 20))
+    assert np.allclose(added[6:, 11:20], 0.1)
+
+
+def test_columns_outside_the_photo_are_no_clear_sky():
+    edges = np.zeros((9, 20), bool)
+    edges[1] = True
+    added = clear_sky(edges, 0.5)
+    assert np.allclose(added[5:], 0.5)
+    assert (added[:5] == 0).all()
+
+
+# Blocks
+
+
+def slow_blocks(blocks, height, width, side):
+    """Values of blocks interpolated between their centres, repeated beyond the outer ones."""
+    rows = np.arange(len(blocks)) * side + (side - 1) / 2
+    columns = np.arange(blocks.shape[1]) * side + (side - 1) / 2
+    downwards = np.array([np.interp(np.arange(height), rows, column) for column in blocks.T])
+    return np.array([np.interp(np.arange(width), columns, row) for row in downwards.T])
+
+
+@pytest.mark.parametrize(
+    ("height", "width", "side", "down", "right"),
+    [(32, 40, 8, 4, 5), (35, 46, 8, 4, 5), (5, 6, 8, 1, 1), (9, 8, 4, 2, 2), (8, 31, 8, 1, 3)],
+)
+def test_blocks_are_interpolated_between_their_centres(height, width, side, down, right):
+    rng = np.random.default_rng(height)
+    blocks = rng.normal(size=(down, right)).astype(np.float32)
+    cost = rng.random((width, height)).astype(np.float32).T
+    before = cost.copy()
+    add_blocks(cost, blocks, 3.0, side)
+    expected = 3 * slow_blocks(blocks, height, width, side)
+    assert cost.shape == (height, width)
+    assert np.allclose(cost - before, expected, atol=1e-4)
+
+
+def test_blocks_of_one_value_move_every_pixel_alike():
+    cost = np.full((30, 20), 2, np.float32).T
+    add_blocks(cost, np.full((2, 3), -0.25, np.float32), 2.0, 8)
+    assert np.allclose(cost, 1.5)
