@@ -10,7 +10,7 @@ from nbclient import NotebookClient
 
 import skyline_viz as sv
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.process import PROGRAM
+from skyline_viz.viewer.rerun_internals import program
 from testing import ROOT
 from testing.recordings import Read
 
@@ -34,7 +34,9 @@ def sent(viewer, folder):
     for file, part in zip(files, parts, strict=True):
         file.write_bytes(part)
     merged = folder / "merged.rrd"
-    subprocess.run([PROGRAM, "rrd", "merge", *files, "-o", merged], check=True, capture_output=True)
+    subprocess.run(
+        [program(), "rrd", "merge", *files, "-o", merged], check=True, capture_output=True
+    )
     return Read(merged)
 
 
