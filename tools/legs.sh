@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The tests of the package without its extras, on other Pythons and with other versions than the locked ones:
-# the lowest that pyproject.toml allows on the lowest Python, and the newest on the highest. Programs that tests
-# start and real browsers are left to `make test`.
+# Tests on other Pythons and with other versions than the locked ones: the lowest that pyproject.toml allows on the
+# lowest Python, with scikit-learn; and the newest on the highest Python, without any extra. Left to `make test` are
+# the extra deep, whose torch takes gigabytes for each leg, and all that starts programs, viewers and browsers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 uv=(.venv/bin/uv --quiet --no-config)
@@ -20,27 +20,22 @@ find_python() {
     "${uv[@]}" python install "$1" 2>/dev/null && "${uv[@]}" python find "$1"
 }
 
-# Run the tests. $1: version of Python; $2: of the dependencies, lowest or newest.
+# Run tests. $1: version of Python; $2: of the dependencies, lowest-direct or highest, as uv calls them; then more for uv.
 leg() {
-    local folder=".venv-$2-$1" python resolution
+    local folder=".venv-$2-$1" python
     if ! python=$(find_python "$1"); then
-        say "NOT RUN: Python $1 with the $2 versions; there is no Python $1 here, and none could be had."
+        say "NOT RUN: Python $1 with $2 versions; there is no Python $1 here, and none could be had."
         return 0
     fi
-    resolution=$([ "$2" = lowest ] && echo lowest-direct || echo highest)
-    say "Python $1 with the $2 versions"
+    say "Python $1 with $2 versions"
     "${uv[@]}" venv --clear --python "$python" "$folder"
-    VIRTUAL_ENV=$folder "${uv[@]}" pip install --resolution "$resolution" --upgrade -r pyproject.toml
+    VIRTUAL_ENV=$folder "${uv[@]}" pip install --resolution "$2" --upgrade -r pyproject.toml "${@:3}"
     VIRTUAL_ENV=$folder "${uv[@]}" pip install pytest pytest-xdist hypothesis httpx
     # Others' warnings are theirs: the lowest version of one package warns of the newest of another.
     PYTHONPATH=. NUMBA_CACHE_DIR=$folder/numba "$folder/bin/python" -m pytest -n auto --dist loadscope -q \
-        -W default -p no:cacheprovider "${tests[@]}"
+        -W default -p no:cacheprovider tests/test_*.py tests/annotate/engine tests/annotate/server tests/command_line \
+        tests/datasets tests/evaluation tests/methods/test_dense_scores.py skyline_viz annotate
 }
 
-tests=(tests/test_*.py)
-if [ $# = 2 ]; then
-    leg "$@"
-else
-    leg 3.11 lowest
-    leg 3.13 newest
-fi
+leg 3.11 lowest-direct --extra methods
+leg 3.13 highest

@@ -19,7 +19,6 @@ WITHOUT = {
     "skyline_viz/evaluation/report.py": "tested with the cross-validation",
     "skyline_viz/evaluation/tables.py": "tested with the registry, and by the command",
     "skyline_viz/gallery/table.py": "tested with a real viewer, in tests/e2e",
-    "skyline_viz/viewer/stage_maps.py": "tested with the recording",
 }
 """Modules that have no test file of their own, and why."""
 

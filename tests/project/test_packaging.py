@@ -2,13 +2,12 @@
 
 import re
 import tomllib
-from pathlib import Path
 
 import pytest
 
 import skyline_viz as sv
+from testing import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 LOCKS = ("requirements.txt", "requirements-dev.txt")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
@@ -43,9 +42,13 @@ def test_the_package_takes_its_licence_and_its_notice_along():
         assert len(text(name)) > 1000
 
 
-@pytest.mark.parametrize("name", LOCKS)
-def test_every_locked_version_has_hashes_and_names_no_host(name):
+@pytest.mark.parametrize("name", [*LOCKS, "Makefile", "tools/setup.sh", "tools/legs.sh"])
+def test_what_is_installed_comes_from_wherever_the_user_gets_packages(name):
     assert "://" not in text(name)
+
+
+@pytest.mark.parametrize("name", LOCKS)
+def test_every_locked_version_has_hashes(name):
     for requirement in locked(name):
         assert re.fullmatch(r"[a-z0-9.-]+(\[[a-z,-]+\])?==\S+", requirement[0]), requirement[0]
         hashes = [word for word in requirement if word.startswith("--hash=")]
