@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from time import perf_counter
 from types import MappingProxyType
 
@@ -125,8 +125,7 @@ class Detection:
         yield from self._last_stages()
 
     def _last_stages(self) -> Iterator[Stage]:
-        shown = self.cost_model.shown(self.cost)
-        yield Stage(COST, shown, "photo")
+        yield Stage(COST, self.cost, "photo", dense=partial(self.cost_model.shown, self.cost))
         yield Stage(PATH, self.skyline.rows, "columns")
 
     def again(self, config: DetectorConfig) -> Detection:

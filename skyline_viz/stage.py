@@ -8,9 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
-import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32
@@ -79,18 +78,25 @@ class Stage:
     quantity: Quantity
     """What its values are, and how they are shown."""
 
-    values: npt.NDArray[np.generic]
+    values: npt.NDArray[Any]
     """``(H, W)``, ``(n,)`` or ``(W,)``, as `where` says; NaN is no value."""
 
     where: Where
     """Where the values are."""
 
     dense: Callable[[], F32] | None = None
-    """Gives the values of all pixels ``(H, W)`` of a stage that is kept at edge pixels alone; None
-    where others have no value. Takes as long as the stage."""
+    """Gives what all pixels show ``(H, W)``, where that is more than the values: of a stage that is
+    kept at edge pixels all others, too; of costs NaN where pixels are ruled out. It may take as
+    long as the stage."""
 
     legend: tuple[tuple[str, tuple[int, int, int]], ...] = ()
     """Words and colour of each value, where these are whole numbers that name something."""
+
+    def map(self) -> npt.NDArray[Any] | None:
+        """What all pixels show, ``(H, W)``; None where only edge pixels or columns have a value."""
+        if self.dense:
+            return self.dense()
+        return self.values if self.where in ("mask", "photo") else None
 
     @property
     def name(self) -> str:

@@ -53,7 +53,8 @@ def test_the_tensor_is_there_for_all_pixels_when_asked_for():
     stages, tensor = FOUND["ours"].stages, tensor_map(PHOTO)
     for name in ("strength", "coherence", "orientation"):
         assert np.array_equal(stages[name].dense(), getattr(tensor, name))
-    assert stages["score"].dense is None
+    assert stages["score"].map() is None
+    assert stages["path"].map() is None
 
 
 def test_bins_have_words_and_a_colour_each():
@@ -70,6 +71,8 @@ def test_methods_bring_stages_of_their_own():
 
 
 def test_costs_that_rule_out_are_no_values():
-    shown = FOUND["edges"].stages["cost"].values
-    assert np.isnan(shown[FOUND["edges"].cost >= FOUND["edges"].non_edge_cost]).all()
-    assert np.isfinite(FOUND["gradient"].stages["cost"].values).all()
+    found = FOUND["edges"]
+    assert np.array_equal(found.stages["cost"].values, found.cost)
+    shown = found.stages["cost"].map()
+    assert np.array_equal(np.isnan(shown), found.cost >= found.non_edge_cost)
+    assert np.isfinite(FOUND["gradient"].stages["cost"].map()).all()

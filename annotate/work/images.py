@@ -31,9 +31,13 @@ STAGES = tuple(one.name for one in OURS)
 
 
 def overlays(detection: Detection) -> tuple[str, ...]:
-    """What can be laid over a photo: the maps among its stages, and the terms of its cost."""
+    """What can be laid over a photo: the maps among its stages, and the terms of its cost.
+
+    A term with the name of a stage, such as the score, is shown by that.
+    """
     stages = [name for name, one in detection.stages.items() if one.where != "columns"]
-    return (*stages, *(term.name for term in detection.cost_model.nodal if term.weight))
+    terms = [term.name for term in detection.cost_model.nodal if term.weight]
+    return tuple(dict.fromkeys([*stages, *terms]))
 
 
 def view_size(height: int, width: int) -> tuple[int, int]:
@@ -104,10 +108,9 @@ def _layer(detection: Detection, name: str) -> U8:
         layer = np.full((*shape, 4), 255, np.uint8)
         layer[..., 3] = np.where(found.values, 255, 0)
         return layer
-    if found.where == "photo":
-        return _coloured(found.quantity, np.asarray(found.values, np.float32))
-    if found.dense:
-        return _coloured(found.quantity, found.dense())
+    whole = found.map()
+    if whole is not None:
+        return _coloured(found.quantity, whole)
     layer = _clear(shape)
     if found.where == "edges":
         table = np.array([colour for _, colour in found.legend], np.uint8)
@@ -127,7 +130,8 @@ def _clear(shape: tuple[int, ...]) -> U8:
 
 def _coloured(quantity: Quantity, values: F32) -> U8:
     """A map ``(H, W)`` as RGBA; where there is no value, it has the last colour."""
-    known = np.where(np.isnan(values), np.nanmax(values, initial=0.0), values)
+    missing = np.isnan(values)
+    known = np.where(missing, values[~missing].max(initial=0.0), values)
     layer = np.full((*values.shape, 4), 255, np.uint8)
     layer[..., :3] = _colours(quantity, known)
     return layer
@@ -135,6 +139,8 @@ def _coloured(quantity: Quantity, values: F32) -> U8:
 
 def _colours(quantity: Quantity, values: npt.NDArray[Any]) -> U8:
     """Colours of values, from the quantity's lowest to its highest, or but for a hundredth."""
+    if values.size == 0:
+        return np.zeros((0, 3), np.uint8)
     low, high = quantity.low, quantity.high
     some = values[::4, ::4] if values.ndim == 2 else values
     if low is None:

@@ -60,7 +60,7 @@ def log_maps(
             recording.log(entity, encoded_edges(np.asarray(stage.values, np.bool_)))
         elif stage.where == "photo" and stage.quantity.group == "maps":  # whole even if lean
             levels = FINE if shown is None else COARSE
-            dense_map(stage.quantity, np.asarray(stage.values), levels).log(recording, entity)
+            dense_map(stage.quantity, stage.values, levels).log(recording, entity)
         elif stage.where in ("edges", "photo"):
             values = stage.values[kept] if stage.where == "edges" else stage.values[rows, columns]
             table[name] = values
@@ -89,11 +89,7 @@ def _log_stage(
         classes[rows, columns] = values + 1
         recording.log(entity, _words(stage.legend), rr.SegmentationImage(classes))
         return
-    dense = None
-    if exact:
-        dense = (
-            np.asarray(stage.values) if stage.where == "photo" else stage.dense and stage.dense()
-        )
+    dense = stage.map() if exact else None
     if dense is not None:
         log_exact_map(recording, entity, stage.quantity, dense)
         return

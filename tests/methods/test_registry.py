@@ -271,9 +271,9 @@ def test_where_all_pixels_are_candidates_none_is_shown_as_ruled_out():
     photo = render("clear", 1, *SIZE).photo
     dense = make_method("gradient").detect(photo)
     assert dense.cost.max() > 0
-    assert np.isfinite(replace(dense, cost=dense.cost + 1).stages["cost"].values).all()
+    assert np.isfinite(replace(dense, cost=dense.cost + 1).stages["cost"].map()).all()
     ruled_out = EdgesOnly().detect(photo)
-    assert np.isnan(ruled_out.stages["cost"].values).any()
+    assert np.isnan(ruled_out.stages["cost"].map()).any()
 
 
 def test_published_rows_name_their_training_sets():
