@@ -22,6 +22,9 @@ from .evaluation.metrics import segmentation_accuracy as segmentation_accuracy
 from .evaluation.verdict import Verdict as Verdict
 from .filter_bank import FilterBank as FilterBank
 from .filter_bank import FilterBankError as FilterBankError
+from .method import Method as Method
+from .method import MethodError as MethodError
+from .methods.registry import find_method as find_method
 from .path import margins as margins
 from .path import path_tables as path_tables
 from .path import shortest_path as shortest_path

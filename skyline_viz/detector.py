@@ -28,7 +28,6 @@ from skyline_viz.tensor import tensor_at
 from skyline_viz.terrain import BLOCK, terrain_above
 from skyline_viz.training import train
 
-
 FILTERS = "filters"
 """What our detector is called as a method in the header of a file."""
 
@@ -167,7 +166,7 @@ class Detector:
             headed_npz.write(file, self.header(), self.arrays())
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Detector:
+    def load(cls, path: str | os.PathLike[str] | bytes) -> Detector:
         """Read what `save` wrote, or a filter bank; nothing is ever unpickled.
 
         A bank brings the settings for which it was trained. One of an earlier version knows of
@@ -191,12 +190,13 @@ class Detector:
         if "method" not in header:
             return cls(bank, bank.provenance.settings)
         label, settings = header.get("label"), header.get("settings")
-        if header["method"] != FILTERS or not isinstance(label, str):
+        told = isinstance(label, str) and isinstance(settings, dict)
+        if header["method"] != FILTERS or not told:
             raise NpzError("its header names no detector")
         if further := sorted(name for name in file.arrays if "__" in name):
             raise NpzError(f"it holds {further[0][:40]}, which this version does not know")
         try:
-            return cls(bank, DetectorConfig(**settings), label)
+            return cls(bank, DetectorConfig(**dict(settings or {})), str(label))
         except (TypeError, ValueError) as error:
             reason = f": {error}" if isinstance(error, ValueError) else ""
             raise NpzError(f"its settings are none of a detector{reason}") from error

@@ -9,16 +9,28 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import cache
 from numbers import Integral, Real
 from pathlib import Path
 from types import NoneType
-from typing import Any, ClassVar, Literal, Self, TypeVar, get_args, get_origin, get_type_hints
+from typing import (
+    Any,
+    ClassVar,
+    Literal,
+    Self,
+    TypeAlias,
+    TypeVar,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 MOST = 1_000_000
 """Largest value of a setting that names no range: pixels, costs, epochs."""
 
 Value = TypeVar("Value")
+
+Presets: TypeAlias = Mapping[str, Mapping[str, object]]
+"""Settings by the name of a preset."""
 
 
 class SettingError(ValueError):
@@ -66,9 +78,7 @@ def name_with(base: str, settings: Mapping[str, object], usual: Mapping[str, obj
     return f"{base}:{','.join(differ)}" if differ else base
 
 
-def nearest_name(
-    settings: Mapping[str, object], presets: Mapping[str, Mapping[str, object]]
-) -> str:
+def nearest_name(settings: Mapping[str, object], presets: Presets) -> str:
     """The preset from which the fewest settings differ, the first among equals, and these."""
 
     def differing(preset: str) -> int:
@@ -105,6 +115,13 @@ def meant(word: str, known: Iterable[str], among: str) -> str:
     return f"did you mean {near[0]}?" if near else f"{among} {', '.join(known) or 'none'}."
 
 
+def from_document(value: object, kind: object) -> object:
+    """A value as JSON keeps it, in the type that its setting has."""
+    if get_origin(kind) is tuple and isinstance(value, list):
+        return tuple(value)
+    return Path(value) if isinstance(value, str) and Path in _alternatives(kind) else value
+
+
 def check_kind(name: str, value: object, kind: object, low: float = 0, high: float = MOST) -> None:
     """Refuse a value of another kind than a setting's, or out of its range.
 
@@ -122,6 +139,12 @@ def check_kind(name: str, value: object, kind: object, low: float = 0, high: flo
             raise SettingError(f"{name} is true or false, not {_said(value)}")
     elif float in allowed or int in allowed:
         check_number(name, value, low, high, whole=float not in allowed)
+    elif get_origin(kind) is tuple:
+        numbers = value if isinstance(value, tuple) else ()
+        if len(numbers) != len(get_args(kind)):
+            raise SettingError(f"{name} is {len(get_args(kind))} numbers, not {_said(value)}")
+        for one in numbers:
+            check_number(name, one, -high, high)
     elif not (isinstance(value, str | Path) and value != ""):
         raise SettingError(f"{name} is a text, not {_said(value)}")
 
@@ -130,7 +153,7 @@ def check_kind(name: str, value: object, kind: object, low: float = 0, high: flo
 class Configured:
     """A method whose settings are its fields; `name` follows from them, or is its label."""
 
-    PRESETS: ClassVar[Mapping[str, Mapping[str, object]]] = {}
+    PRESETS: ClassVar[Presets] = {}
     """Names under which it is known, and what each sets differently from the defaults."""
 
     UNSET: ClassVar[frozenset[str]] = frozenset({"label"})
@@ -146,17 +169,18 @@ class Configured:
 
     def own_name(self) -> str:
         """What it is called without a label."""
-        usual = {one: _kinds_of(type(self))[one][1] for one in self.settings()}
+        usual = {one: known[1] for one, known in _kinds_of(self).items()}
         presets = {name: {**usual, **changed} for name, changed in self.PRESETS.items()}
         return nearest_name(self.settings(), presets or {type(self).__name__: usual})
 
     def settings(self) -> dict[str, object]:
         """Its settings by name."""
-        return {one: getattr(self, one) for one in _kinds_of(type(self)) if one not in self.UNSET}
+        names = [one.name for one in fields(self) if one.name not in self.UNSET]
+        return {one: getattr(self, one) for one in names}
 
     def kinds(self) -> dict[str, object]:
         """Type of each setting."""
-        return {one: _kinds_of(type(self))[one][0] for one in self.settings()}
+        return {one: known[0] for one, known in _kinds_of(self).items()}
 
     def with_settings(self, values: Mapping[str, object]) -> Self:
         """The same with other settings.
@@ -164,33 +188,39 @@ class Configured:
         Raises:
             SettingError: A setting is unknown, of another kind, or out of its range.
         """
-        known = self.settings()
+        known = _kinds_of(self)
+        changes: dict[str, Any] = {}
         for name, value in values.items():
             if name not in known:
                 raise SettingError(f"there is no setting {name}")
-            kind, _, limits = _kinds_of(type(self))[name]
-            check_kind(name, value, kind, *limits)
-        changes: dict[str, Any] = dict(values)
+            kind, _, limits = known[name]
+            changes[name] = from_document(value, kind)
+            check_kind(name, changes[name], kind, *limits)
         return replace(self, **changes)
 
     def labelled(self, label: str) -> Self:
         """The same under another name."""
         return replace(self, label=label)
 
+    def arrays(self) -> Mapping[str, Any]:
+        """What it has learned: nothing."""
+        return {}
 
-@cache
-def _kinds_of(kind: type[Configured]) -> dict[str, tuple[object, object, tuple[float, float]]]:
-    """Type, default and range of each field."""
-    hints = get_type_hints(kind)
+
+def _kinds_of(method: Configured) -> dict[str, tuple[object, object, tuple[float, float]]]:
+    """Type, default and range of each setting."""
+    hints = get_type_hints(type(method))
     return {
         one.name: (hints[one.name], one.default, one.metadata.get("range", (0, MOST)))
-        for one in fields(kind)
+        for one in fields(method)
+        if one.name not in method.UNSET
     }
 
 
 def _alternatives(kind: object) -> tuple[object, ...]:
     """The types of which a value may be; a text that is one of some counts as one."""
-    return (kind,) if get_origin(kind) is Literal or not get_args(kind) else get_args(kind)
+    whole = not get_args(kind) or get_origin(kind) in (Literal, tuple)
+    return (kind,) if whole else get_args(kind)
 
 
 def _from_text(text: str, kind: object) -> object:

@@ -1,4 +1,4 @@
-"""Files as earlier versions wrote them: banks and methods had a header each, and no detector did."""
+"""Files as earlier versions wrote them: banks and methods had a header each."""
 
 from __future__ import annotations
 

@@ -89,7 +89,7 @@ def test_an_earlier_bank_brings_what_it_knows(tmp_path):
     [
         ({"settings": {"delta": -1}}, "delta is a whole number from 0 to 100000, not -1"),
         ({"settings": {"slope": 1}}, "its settings are none of a detector"),
-        ({"settings": None}, "its settings are none of a detector"),
+        ({"settings": None}, "its header names no detector"),
         ({"label": 3}, "its header names no detector"),
         ({"method": "edges"}, "its header names no detector"),
         ({"version": 3}, "of version 3; this program reads version 2"),

@@ -11,17 +11,9 @@ import tyro
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import UsageError, counted, say, status_after, tell
 from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import (
-    BankFile,
-    Folder,
-    OptionalFolder,
-    Preset,
-    Switch,
-    make_detector,
-)
+from skyline_viz.command_line.settings import Folder, OptionalFolder, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
-from skyline_viz.config import DetectorConfig
 from skyline_viz.running.batch import Failure
 from skyline_viz.system.memory import MAX_MEGAPIXELS, RECORDING
 
@@ -62,12 +54,6 @@ class Diagnose:
     truths: TruthOptions = field(default_factory=Truths)
     """How to read masks that leave a choice."""
 
-    bank: BankFile = None
-    """Filter bank to use; the shipped one unless given."""
-
-    preset: Preset = "default"
-    """Where the settings below start from: the best that is known, or the published method."""
-
     seed: int = 0
     """Seed of the negative samples in a cross-validation."""
 
@@ -77,15 +63,10 @@ class Diagnose:
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
 
-    config: DetectorConfig = field(default_factory=DetectorConfig)
-    """Single settings of the detector."""
-
     def run(self) -> int:
         """Diagnose all photos that have a truth; return the exit status."""
         from skyline_viz.diagnosis.diagnosing import checked_tolerance  # noqa: PLC0415
 
-        if self.folds and self.bank:
-            raise UsageError("--folds trains filter banks of its own; leave out --bank.")
         checked_tolerance(self.tolerance)
         dataset = self.truths.open(self.dataset)
         items = with_truth(dataset)
@@ -111,20 +92,16 @@ class Diagnose:
         self, items: Sequence[DatasetItem], workers: int, kept: Kept
     ) -> tuple[Mapping[str, Method], list[Failure]]:
         """The detector of each photo, by its name."""
-        if self.methods.given:
-            from skyline_viz.evaluation.comparing import fold_method  # noqa: PLC0415
-
-            method = self.methods.one(self.bank, self.config, to_train=bool(self.folds))
-            return fold_method(items, method, self.folds, self.seed, workers, kept)
-        if not self.folds:
-            detector = make_detector(self.bank, self.config)
-            return {item.name: detector for item in items}, []
+        from skyline_viz.evaluation.comparing import fold_method  # noqa: PLC0415
         from skyline_viz.evaluation.cross_validation import fold_detectors  # noqa: PLC0415
 
+        method = self.methods.one(to_train=bool(self.folds))
+        if self.methods.method or self.methods.network or not self.folds:
+            return fold_method(items, method, self.folds, self.seed, workers, kept)
         return fold_detectors(
             items,
             self.folds,
-            config=self.config,
+            config=self.methods.config,
             seed=self.seed,
             workers=workers,
             kept=kept,

@@ -17,16 +17,9 @@ from skyline_viz.command_line.messages import (
     tell_drawn,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import (
-    BankFile,
-    Folder,
-    OptionalFolder,
-    Preset,
-    make_detector,
-)
+from skyline_viz.command_line.settings import Folder, OptionalFolder
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
-from skyline_viz.config import DetectorConfig
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
@@ -57,12 +50,6 @@ class Evaluate:
     truths: TruthOptions = field(default_factory=Truths)
     """How to read masks that leave a choice."""
 
-    bank: BankFile = None
-    """Filter bank to use; the shipped one unless given."""
-
-    preset: Preset = "default"
-    """Where the settings below start from: the best that is known, or the published method."""
-
     seed: int = 0
     """Seed of the negative samples in a cross-validation."""
 
@@ -72,13 +59,8 @@ class Evaluate:
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
 
-    config: DetectorConfig = field(default_factory=DetectorConfig)
-    """Single settings of the detector."""
-
     def run(self) -> int:
         """Evaluate all photos that have a truth; return the exit status."""
-        if self.folds and self.bank:
-            raise UsageError("--folds trains filter banks of its own; leave out --bank.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
         dataset = self.truths.open(self.dataset)
@@ -89,23 +71,26 @@ class Evaluate:
 
         workers = foresee(items, self.workers)
         kept = Kept.within(self.out, "evaluate")
-        if self.methods.given:
+        if self.methods.method or self.methods.network:
             return self._compare(dataset, items, workers, kept)
+        from skyline_viz.detector import Detector  # noqa: PLC0415
         from skyline_viz.evaluation.cross_validation import cross_validate, evaluate  # noqa: PLC0415
 
         if self.folds:
+            self.methods.one(to_train=True)
             how = f"{self.folds}-fold cross-validation"
             about: dict[str, object] = {"folds": self.folds, "seed": self.seed}
             results, failures = cross_validate(
                 items,
                 self.folds,
-                config=self.config,
+                config=self.methods.config,
                 seed=self.seed,
                 workers=workers,
                 kept=kept,
             )
         else:
-            detector = make_detector(self.bank, self.config)
+            detector = self.methods.one()
+            assert isinstance(detector, Detector)
             provenance = detector.bank.provenance
             how = f"filter bank trained on {provenance.dataset or 'an unnamed data set'}"
             about = {"bank": asdict(provenance)}
@@ -132,7 +117,7 @@ class Evaluate:
         from skyline_viz.evaluation.comparing import compare_methods  # noqa: PLC0415
         from skyline_viz.methods.registry import learned_from  # noqa: PLC0415
 
-        methods = self.methods.chosen(bank=self.bank, config=self.config, to_train=bool(self.folds))
+        methods = self.methods.chosen(to_train=bool(self.folds))
         for text in self.methods.method:
             if not self.folds and learned_from(text) == dataset.name:
                 say(f"{text} was trained on {dataset.name}, so this is no test; see --folds.")
@@ -172,7 +157,7 @@ class Evaluate:
             "dataset": dataset.name,
             "layout": dataset.layout,
             **about,
-            "config": asdict(self.config),
+            "config": asdict(self.methods.config),
             "failed": [asdict(failure) for failure in failures],
             "problems": [*dataset.problems, *dataset.left_out],
         }

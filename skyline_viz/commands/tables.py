@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, get_args
+from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
@@ -15,7 +15,7 @@ from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import Folder, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
-from skyline_viz.methods.names import MethodName
+from skyline_viz.methods.names import NAMES
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
@@ -72,9 +72,9 @@ class Tables:
             raise UsageError(f"a cross-validation has 2 folds or more, not {self.folds}.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
-        methods = self.methods.chosen(to_train=True) or [
-            make_method(name) for name in get_args(MethodName)
-        ]
+        methods: Sequence[Method] = [make_method(name) for name in NAMES]
+        if self.methods.given:
+            methods = self.methods.chosen(to_train=True)
         sets = {}
         for folder in self.datasets:
             dataset = self.truths.open(folder)

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from skyline_viz.datasets.layouts import DatasetItem
-from skyline_viz.detector import Detector
 from skyline_viz.evaluation.cross_validation import run_tests, tests_of
 from skyline_viz.evaluation.results import PhotoResult
-from skyline_viz.filter_bank import FilterBank, FilterBankError
 from skyline_viz.method import Learner, Method, MethodError
-from skyline_viz.methods.registry import Trained, load_method, save_method
+from skyline_viz.methods.registry import load_method, save_method
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.resume import Kept, digest_of, digest_of_item, digest_of_method
 from skyline_viz.skyline import SkylineError
@@ -181,18 +180,13 @@ def _learn(lesson: _Lesson) -> Learner:
     key = digest_of("learned", digest_of_method(method), lesson.seed, contents)
     file = lesson.folder / f"{key}.npz"
     try:
-        if isinstance(method, Detector):
-            again: Learner = replace(method, bank=FilterBank.load(file))
-            return again
         known: Any = load_method(file)
-        ready: Learner = replace(method, model=known.model)
+        ready: Learner = method.sharing(known)
         return ready
-    except (FilterBankError, MethodError):  # there is none, or it is damaged
+    except MethodError:  # there is none, or it is damaged
         learned = lesson.method.fit(lesson.items, lesson.seed)
-    if isinstance(learned, Detector):
-        learned.bank.save(file)
-    else:
-        save_method(learned, file, Trained())
+    with suppress(MethodError):  # what some class has learned cannot be kept
+        save_method(learned, file)
     return learned
 
 

@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 
 from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.detector import FilterDetection
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.evaluation.cross_validation import warm_up
@@ -36,7 +37,7 @@ from skyline_viz.viewer.diagnosis_recording import log_diagnosis
 from skyline_viz.viewer.recording import log_detection, new_recording
 from skyline_viz.viewer.report import listed_segments
 
-VERSION = 3
+VERSION = 4
 """Of recordings and gallery.json; all of an earlier one are made anew."""
 
 _FLAGS_VERSION = 1  # of flags.json, which outlives the others
@@ -88,6 +89,9 @@ class Entry:
 
     method: str = "default"
     """Name of the method."""
+
+    filters: bool = True
+    """Whether it is our detector, whose tensor and bins are recorded, too."""
 
     compared: str = ""
     """Name of the method beside the first; nothing without one."""
@@ -275,7 +279,14 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
                 "difference": float(apart),
             }
     photo_file = str(item.photo_path)
-    about = {"method": detection.method, "causes": causes, **against, **vars(verdict)}
+    ours = isinstance(detection, FilterDetection)
+    about = {
+        "method": detection.method,
+        "filters": ours,
+        "causes": causes,
+        **against,
+        **vars(verdict),
+    }
     return Entry(task.name, photo_file, made_from, **about)
 
 

@@ -101,7 +101,7 @@ def served(
             width=1388,  # most photos are wider than high
             truth=truth,
             bank=False,
-            filters=entries[0].method in ("default", "paper"),
+            filters=entries[0].filters,
             compared=compared,
             diagnosed=any(entry.causes for entry in entries),
             stacked_costs=False,

@@ -3,6 +3,8 @@
 A second detection beside the first has the same paths under `OTHER`.
 """
 
+import rerun as rr
+
 PHOTO = "photo"
 """The photo."""
 
@@ -153,6 +155,20 @@ def map_of(name: str) -> str:
     'maps/sky_probability'
     """
     return f"{MAPS}/{name.replace(' ', '_')}"
+
+
+def stages_of(method: str) -> str:
+    r"""Parent of the stages of another method, by its name.
+
+    >>> stages_of("edges"), stages_of("paper:delta=4")
+    ('methods/edges', 'methods/paper\\\\:delta\\\\=4')
+    """
+    return f"{METHODS}/{rr.escape_entity_path_part(method)}"
+
+
+def line_of(method: str) -> str:
+    """The skyline that another method found, by its name."""
+    return f"{METHOD_LINES}/{rr.escape_entity_path_part(method)}"
 
 
 def below(parent: str, entity: str) -> str:

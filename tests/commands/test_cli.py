@@ -17,7 +17,7 @@ import skyline_viz as sv
 from skyline_viz import rendering
 from skyline_viz.cli import main
 from skyline_viz.command_line.inputs import output_names
-from skyline_viz.command_line.settings import asked_preset
+from skyline_viz.command_line.methods import described
 from skyline_viz.commands import detect as detect_command
 from skyline_viz.running import batch
 
@@ -146,7 +146,7 @@ def test_usage_errors_end_with_2(say, words):
         (["train", "HILLS", "--out", "b.npz", "--training.bins.strengths", "0"], "strengths is"),
         (["train", "HILLS/images", "--out", "b.npz"], "images holds no truth for any"),
         (["evaluate", "HILLS", "--folds", "5"], "from 2 to the 4 photos, not 5."),
-        (["evaluate", "HILLS", "--folds", "2", "--bank", "b.npz"], "leave out --bank."),
+        (["evaluate", "HILLS", "--folds", "2", "--bank", "b.npz"], "b.npz has learned already"),
         (["evaluate", "HILLS", "--seed", "-1"], "a seed is 0 or more, not -1."),
         (["render", "--seed", "3"], "are for scenes of a --kind."),
         (["render", "--kind", "lunar"], "a scene is one of clear, "),
@@ -238,7 +238,7 @@ def test_settings_reach_the_detector(say, hills, monkeypatch):
     ],
 )
 def test_the_preset_is_known_before_parsing(words, preset):
-    assert asked_preset(words.split()) == preset
+    assert described(words.split()).config == sv.DetectorConfig.presets()[preset]
 
 
 def test_bad_photos_are_listed_and_the_others_done(say, tmp_path):

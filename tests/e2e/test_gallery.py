@@ -12,9 +12,8 @@ from PIL import Image
 
 from skyline_viz.cli import main
 from skyline_viz.command_line.inputs import collect
-from skyline_viz.command_line.settings import make_detector
 from skyline_viz.commands.gallery import PICTURE, build
-from skyline_viz.config import DetectorConfig
+from skyline_viz.detector import Detector
 from skyline_viz.gallery.hand import ended_edits
 from skyline_viz.gallery.store import Flag, Gallery
 from skyline_viz.gallery.table import served
@@ -49,7 +48,7 @@ def click_flag(robot):
 
 
 def test_reviewing_commenting_and_looking_inside(photos, tmp_path):
-    detector = make_detector(None, DetectorConfig())
+    detector = Detector()
     entries, failures = build(tmp_path, collect([photos]), detector, workers=1)
     assert failures == []
     assert [entry.name for entry in entries] == NAMES
@@ -99,7 +98,7 @@ def test_reviewing_commenting_and_looking_inside(photos, tmp_path):
 
 
 def test_one_cause_and_a_review_while_another_is_hidden(photos, tmp_path):
-    detector = make_detector(None, DetectorConfig())
+    detector = Detector()
     entries, _ = build(tmp_path, collect([photos]), detector, workers=1)
     files = Gallery(tmp_path)
     files.save_flags({"hazy-1": Flag(reviewed=True)})

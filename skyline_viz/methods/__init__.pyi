@@ -1,0 +1,1 @@
+from .registry import find_method as find_method
