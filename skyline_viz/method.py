@@ -24,6 +24,10 @@ class MethodError(ValueError):
     """A method is unknown, has not been trained, or lacks a package; the message says which."""
 
 
+class UnnamedClassError(MethodError):
+    """A file was made by a class that nobody has named; the message says how to."""
+
+
 class Method(Protocol):
     """Finds skylines."""
 

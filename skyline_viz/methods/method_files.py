@@ -128,7 +128,8 @@ def load_method(source: str | os.PathLike[str] | bytes) -> Configurable:
         with opened(source) as file:
             kind, ours = file.header.get("format"), "bank" not in file.header
             if kind == EARLIER_FORMAT or (kind == headed_npz.FORMAT and ours):
-                return _loaded(name, file)
+                hint = "" if isinstance(source, bytes) else f":model={name}"
+                return _loaded(name, file, hint)
     except FileNotFoundError:
         raise MethodError(f"{name} does not exist.") from None
     except NpzError as error:
@@ -143,7 +144,7 @@ def load_method(source: str | os.PathLike[str] | bytes) -> Configurable:
         raise MethodError(str(error).replace("the bank ", f"{name} ", 1)) from error
 
 
-def _loaded(path: str, file: HeadedNpz) -> Configurable:
+def _loaded(path: str, file: HeadedNpz, hint: str) -> Configurable:
     """The method in a file whose header is one of ours.
 
     Raises:
@@ -164,7 +165,7 @@ def _loaded(path: str, file: HeadedNpz) -> Configurable:
         if key == NETWORK:
             made = _network(settings, header.get("digest"), earlier=earlier)
         elif ":" in key:
-            return plugged_from_file(path, key, settings, file, label)
+            return plugged_from_file(path, key, settings, file, label, hint)
         else:
             made = _with_model(make_method(key), file).with_settings(settings)
         return made.labelled(label)

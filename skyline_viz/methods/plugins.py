@@ -20,7 +20,7 @@ import numpy.typing as npt
 from skyline_viz.arrays import U8, check_photo
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.detection import Detection, timed
-from skyline_viz.method import Configurable, Learner, Method, MethodError
+from skyline_viz.method import Configurable, Learner, Method, MethodError, UnnamedClassError
 from skyline_viz.methods.importing import class_at, failed_in, offered
 from skyline_viz.settings import SettingError, check_kind, from_document, name_with
 from skyline_viz.skyline import Skyline
@@ -193,18 +193,19 @@ def plug_in(place: str, kind: Any) -> PluggedIn:  # noqa: ANN401 - anything may 
 
 
 def plugged_from_file(
-    path: str, place: str, settings: Mapping[str, object], file: HeadedNpz, label: str
+    path: str, place: str, settings: Mapping[str, object], file: HeadedNpz, label: str, hint: str
 ) -> PluggedIn:
     """The method of somebody's in an open file.
 
     Raises:
-        MethodError: Nobody has named its class in this process, or it does not take the settings.
+        UnnamedClassError: Nobody has named its class in this process; `hint` ends what to name.
+        MethodError: It does not take the settings.
         NpzError: An array is damaged.
     """
     if place not in _named and place not in offered().values():
-        raise MethodError(
+        raise UnnamedClassError(
             f"{path} was made by {place}, and no file decides what is run: name that class, too, "
-            f"as in {place}:{_MODEL}={path}."
+            f"as in --method {place}{hint}."
         )
     kind = class_at(place)
     try:

@@ -1,6 +1,5 @@
 """How methods are named: what is a label, a target and a setting, and which method that is."""
 
-import os
 from pathlib import Path
 
 import numpy as np
@@ -139,7 +138,7 @@ def test_a_file_brings_settings_and_is_called_after_itself(tmp_path, monkeypatch
     assert sv.find_method("labelled.npz:delta=9").name == "hills:delta=9"
     assert sv.find_method("default:model=b.npz").config == sv.DetectorConfig()
     assert sv.find_method("default:model=b.npz").name == "default:model=b.npz"
-    os.rename("b.npz", "paper:v=1,delta=2.npz")
+    Path("b.npz").rename("paper:v=1,delta=2.npz")
     assert sv.find_method("paper:v=1,delta=2.npz").config == PAPER
     assert sv.find_method("x=paper:v=1,delta=2.npz:delta=7").config.delta == 7
 
