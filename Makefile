@@ -1,18 +1,50 @@
-.PHONY: demo test check bench reliability pictures samples lock clean
+.DEFAULT_GOAL := help
+.PHONY: help demo test check docs coverage bounds fuzz legs ci bench reliability pictures samples lock clean
 
-SOURCES = pyproject.toml requirements-dev.txt tools/setup.sh
+SOURCES = pyproject.toml requirements.txt requirements-dev.txt tools/setup.sh tools/page/package-lock.json
+MKDOCS = NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict --quiet
+PYTEST = .venv/bin/python -m pytest
+# The tests of each module with a compiled loop.
+KERNEL_TESTS = $(shell grep -rl 'numba.njit' skyline_viz annotate --include='*.py' | \
+    sed 's,^skyline_viz/,,; s,[^/]*$$,test_&,; s,^,tests/,')
+
+help:  ## Say what can be made.
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' Makefile
 
 demo: .venv/.installed-run  ## Find the skylines of the samples, or of PHOTOS=FOLDER, and show them.
 	.venv/bin/skyline-viz demo $(if $(PHOTOS),"$(PHOTOS)")
 
 test: check  ## Everything that must hold: lint, types, doctests, tests.
-	.venv/bin/python -m pytest -n auto --dist loadscope
+	$(PYTEST) -n auto --dist loadscope
 
-check: .venv/.installed-dev  ## Lint and types only.
+check: .venv/.installed-dev  ## Lint, types, direction of imports, the page, docs with all their links.
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
 	.venv/bin/lint-imports
+	PATH="$(CURDIR)/.venv/bin:$$PATH" npm run --prefix tools/page --silent check
+	$(MKDOCS)
+
+docs: .venv/.installed-dev  ## The docs as a site, to read without a network: site/index.html.
+	$(MKDOCS)
+	@echo "Open site/index.html in a browser."
+
+coverage: .venv/.installed-dev  ## All tests, with the lines and branches that they reach: at least 95 %.
+	.venv/bin/coverage erase
+	.venv/bin/coverage run -m pytest -n auto --dist loadscope
+	.venv/bin/coverage combine --quiet
+	.venv/bin/coverage report
+
+bounds: .venv/.installed-dev  ## The tests of the compiled loops, every index checked.
+	NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.venv/bounds $(PYTEST) -n auto --dist loadscope $(KERNEL_TESTS)
+
+fuzz: .venv/.installed-dev  ## The properties, with twenty times as many examples, drawn at random.
+	HYPOTHESIS_PROFILE=random $(PYTEST) -n auto --dist load -m hypothesis
+
+legs: .venv/.installed-dev  ## The tests with the lowest and the newest versions, on Python 3.11 and 3.13.
+	tools/legs.sh
+
+ci: check coverage bounds legs  ## What has to be green before a change lands.
 
 bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the folder of the real data sets.
 	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)")
@@ -30,12 +62,15 @@ pictures: .venv/.installed-dev  ## Draw the pictures of the docs again.
 samples: .venv/.installed-run  ## Rebuild sample_data, byte for byte.
 	.venv/bin/skyline-viz render --out sample_data
 
-lock: .venv/.installed-dev  ## Renew the locked development set.
-	.venv/bin/uv pip compile --quiet --universal --python-version 3.11 --group dev pyproject.toml \
-	    --no-emit-index-url --no-header --output-file requirements-dev.txt
+LOCK = .venv/bin/uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes \
+    --no-emit-index-url --no-header pyproject.toml --group build
 
-clean:
-	rm -rf .venv build dist skyline-demo skyline-gallery
+lock: .venv/.installed-dev  ## Renew the locked versions: what development needs, and of that what running needs.
+	$(LOCK) --group dev --output-file requirements-dev.txt
+	$(LOCK) --constraints requirements-dev.txt --output-file requirements.txt
+
+clean:  ## Remove the environments and what was built and shown.
+	rm -rf .venv .venv-* tools/page/node_modules build dist site skyline-demo skyline-gallery .coverage .coverage.*
 
 .venv/.installed-run: $(SOURCES)
 	tools/setup.sh run

@@ -20,8 +20,11 @@ class Bins:
 
     The index of a bin is ``(coherence * strengths + strength) * orientations + orientation``.
 
-    >>> Bins().count
-    288
+    Examples:
+        >>> Bins().count
+        288
+        >>> Bins(coherences=1, strengths=2, orientations=4).shape
+        (1, 2, 4)
     """
 
     coherences: int = 3
@@ -64,7 +67,14 @@ class Bins:
         return self.coherences * self.strengths * self.orientations
 
     def of(self, tensor: Tensor) -> Int:
-        """Bin index of each pixel, int32, of the shape of the tensor's arrays."""
+        """Bin index of each pixel, int32, of the shape of the tensor's arrays.
+
+        Examples:
+            >>> from skyline_viz.tensor import Tensor
+            >>> edge = Tensor(np.float32([300]), np.float32([1]), np.float32([90]))
+            >>> Bins().of(edge)  # the last coherence and strength, the orientation in the middle
+            array([280], dtype=int32)
+        """
         coherence = _level(tensor.coherence / self.coherence_top, self.coherences)
         above = (tensor.strength - self.strength_offset) / self.strength_range
         strength = _level(above, self.strengths)
@@ -73,7 +83,12 @@ class Bins:
         return (coherence * self.strengths + strength) * self.orientations + orientation
 
     def mirrored(self) -> npt.NDArray[np.intp]:
-        """Bin ``(count,)`` into which each bin's pixels fall in the left-right flipped photo."""
+        """Bin ``(count,)`` into which each bin's pixels fall in the left-right flipped photo.
+
+        Examples:
+            >>> Bins(coherences=1, strengths=1, orientations=4).mirrored()
+            array([0, 3, 2, 1])
+        """
         index = np.arange(self.count).reshape(self.shape)
         return index[:, :, -np.arange(self.orientations) % self.orientations].ravel()
 

@@ -14,7 +14,12 @@ class PathError(ValueError):
 
 @dataclass(frozen=True, order=True)
 class Anchor:
-    """A pixel that the path passes through."""
+    """A pixel that the path passes through.
+
+    Examples:
+        >>> print(Anchor(column=12, row=40))
+        the anchor at column 12, row 40
+    """
 
     column: int
     """Column, in pixels from the left."""
@@ -28,7 +33,12 @@ class Anchor:
 
 @dataclass(frozen=True)
 class StraightSpan:
-    """Two pixels between which the path is the straight line, however steep."""
+    """Two pixels between which the path is the straight line, however steep.
+
+    Examples:
+        >>> StraightSpan(Anchor(column=0, row=10), Anchor(column=2, row=30)).rows()
+        array([10, 20, 30])
+    """
 
     start: Anchor
     """Its left end."""
@@ -73,6 +83,13 @@ def apply_constraints(
 
     Raises:
         PathError: Outside the photo, or two that fix one column to different rows.
+
+    Examples:
+        >>> columns, reach = np.ones((2, 3)), np.array([1], np.int32)
+        >>> fixed, _ = apply_constraints(columns, reach, Constraints((Anchor(column=0, row=2),)))
+        >>> fixed
+        array([[inf, inf,  1.],
+               [ 1.,  1.,  1.]])
     """
     columns, reach = columns.copy(), reach.copy()
     width, height = columns.shape

@@ -84,10 +84,11 @@ class FilterDetection(Detection):
 class Detector:
     """Finds skylines.
 
-    >>> photo = np.full((40, 60, 3), 200, np.uint8)
-    >>> photo[25:] = 60
-    >>> set(Detector().detect(photo).skyline.rows.tolist())
-    {25.0}
+    Examples:
+        >>> photo = np.full((40, 60, 3), 200, np.uint8)
+        >>> photo[25:] = 60
+        >>> set(Detector().detect(photo).skyline.rows.tolist())
+        {25.0}
     """
 
     bank: FilterBank = field(default_factory=FilterBank.default)

@@ -1,4 +1,9 @@
-"""Stage 1, edges: the candidate pixels of the skyline (the paper's ``E(i, j)``, equation 1)."""
+r"""Stage 1, edges: the candidate pixels of the skyline (equation 1 of the paper).
+
+$$
+E(i, j) = 1 \text{ at edge pixels, } 0 \text{ elsewhere}
+$$
+"""
 
 import cv2
 import numba
@@ -30,7 +35,12 @@ GRADIENT_STEP = 6
 
 
 def to_grey(photo: U8) -> U8:
-    """Grey photo ``(H, W)`` uint8 of an RGB photo ``(H, W, 3)``, with the weights of ITU-R 601."""
+    """Grey photo ``(H, W)`` uint8 of an RGB photo ``(H, W, 3)``, with the weights of ITU-R 601.
+
+    Examples:
+        >>> to_grey(np.array([[[255, 0, 0], [0, 255, 0], [0, 0, 255]]], np.uint8))
+        array([[ 76, 150,  29]], dtype=uint8)
+    """
     grey: U8 = cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY)
     return grey
 
@@ -68,6 +78,15 @@ def find_edges(
 
     Returns:
         ``(H, W)`` bool, True on edge pixels; and the thresholds that were used.
+
+    Examples:
+        The edge lies in the first row of the darker half.
+
+        >>> photo = np.full((9, 8, 3), 200, np.uint8)
+        >>> photo[5:] = 60
+        >>> edges, thresholds = find_edges(photo, "colour", 50.0, 220.0)
+        >>> np.flatnonzero(edges.all(axis=1))
+        array([5])
     """
     padded = cv2.copyMakeBorder(
         to_grey(photo) if source == "grey" else photo, 1, 1, 1, 1, cv2.BORDER_REPLICATE
@@ -91,6 +110,13 @@ def fitted_thresholds(across: I16, down: I16, low: float, high: float) -> tuple[
         down: ``(H, W)`` Sobel gradient along the columns.
         low: Lower threshold for a crisp photo.
         high: Upper threshold for a crisp photo.
+
+    Examples:
+        In a photo without any gradient they are lowered as far as they may be.
+
+        >>> flat = np.zeros((60, 60), np.int16)
+        >>> fitted_thresholds(flat, flat, 50.0, 220.0)
+        (15.0, 66.0)
     """
     every = (slice(None, None, GRADIENT_STEP), slice(None, None, GRADIENT_STEP))
     gradients = np.abs(across[every].astype(np.int32)) + np.abs(down[every])
@@ -103,8 +129,9 @@ def fitted_thresholds(across: I16, down: I16, low: float, high: float) -> tuple[
 def edge_pixels(edges: Bool) -> tuple[Int, Int]:
     """Rows and columns of the edge pixels, two ``(n,)`` int32 arrays, row by row.
 
-    >>> edge_pixels(np.array([[False, True], [True, False]]))
-    (array([0, 1], dtype=int32), array([1, 0], dtype=int32))
+    Examples:
+        >>> edge_pixels(np.array([[False, True], [True, False]]))
+        (array([0, 1], dtype=int32), array([1, 0], dtype=int32))
     """
     flat = np.flatnonzero(edges).astype(np.int32)
     rows = flat // np.int32(edges.shape[1])

@@ -74,7 +74,13 @@ class Provenance:
 
 @dataclass(frozen=True, eq=False)
 class FilterBank:
-    """A learned filter for every bin."""
+    """A learned filter for every bin.
+
+    Examples:
+        >>> bank = FilterBank.default()
+        >>> bank.filters.shape, int(bank.starved.sum())
+        ((288, 7, 7), 181)
+    """
 
     filters: F32
     """``(K, n, n)`` taps, bin by bin; a filter times a patch of grey levels gives 0 to 255."""

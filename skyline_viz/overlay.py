@@ -21,6 +21,9 @@ TRUTH: Colour = (0x00, 0xD1, 0xB2)
 ALTERNATIVE: Colour = (0xFF, 0xD4, 0x00)
 """Yellow: another line to compare with."""
 
+ANCHOR: Colour = (0xFF, 0xFF, 0xFF)
+"""White: pixels that an annotator has fixed."""
+
 HALO: Colour = (20, 20, 20)
 """What surrounds a line, so that it reads on snow as well as on rock."""
 
@@ -69,6 +72,15 @@ def line_width(height: int, width: int) -> int:
     (2, 7)
     """
     return max(2, round(math.sqrt(height * width) / 500))
+
+
+def css(colour: Colour) -> str:
+    """A colour as style sheets write it.
+
+    >>> css(PATH)
+    '#ff2d95'
+    """
+    return f"#{bytes(colour).hex()}"
 
 
 def _draw(picture: U8, strokes: list[npt.NDArray[np.int32]], colour: Colour, across: int) -> None:

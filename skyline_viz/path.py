@@ -1,9 +1,19 @@
-"""Stage 6, path: the cheapest way from the first column to the last, and how sure it is.
+r"""Stage 6, path: the cheapest way from the first column to the last, and how sure it is.
 
-A path has one row a column. It pays the nodal cost of every pixel that it visits and, between two
-columns, ``link_weight`` times the change of row, which is at most ``delta`` (equation 3). Dynamic
-programming finds the optimum exactly; kept from both sides, its tables tell the cost of the
-cheapest path through any pixel.
+A path has one row a column. It pays the nodal cost $\Psi$ of every pixel that it visits. Between
+two columns it pays ``link_weight`` times the change of row, which is at most ``delta`` (equation 3
+of the paper). Dynamic programming finds the optimum exactly, column by column:
+
+$$
+F_j(k) = \Psi(k, j) + \min_{|i - k| \le \delta} \left( F_{j-1}(i) + w_{link} \, |i - k| \right)
+$$
+
+Kept from both sides, its tables tell the cost of the cheapest path through any pixel, the
+min-marginal, with $B$ as the same sum from the right:
+
+$$
+M_j(k) = F_j(k) + B_j(k) - \Psi(k, j)
+$$
 
 The tables run column by column in memory, because the inner loops go down a column.
 """
@@ -65,6 +75,18 @@ def shortest_path(
 
     Raises:
         PathError: A cost is NaN or minus infinity, or no path satisfies the constraints.
+
+    Examples:
+        Of two level lines the path takes the cheaper one, unless an anchor says otherwise.
+
+        >>> cost = np.full((5, 4), 2.0)
+        >>> cost[1], cost[3] = 1.0, 1.1
+        >>> shortest_path(cost, delta=1, link_weight=0.1).rows
+        array([1, 1, 1, 1], dtype=int32)
+        >>> from skyline_viz.constraints import Anchor
+        >>> anchored = Constraints(anchors=(Anchor(column=0, row=3),))
+        >>> shortest_path(cost, 1, 0.1, anchored).rows
+        array([3, 3, 3, 3], dtype=int32)
     """
     columns, reach = _problem(cost, delta, link_weight, constraints)
     forward = _forward(columns, reach, float(link_weight))
@@ -81,7 +103,14 @@ def path_tables(
     link_weight: float,
     constraints: Constraints | None = None,
 ) -> PathTables:
-    """Tables of the problem that `shortest_path` solves; same arguments, same errors."""
+    """Tables of the problem that `shortest_path` solves; same arguments, same errors.
+
+    Examples:
+        >>> cost = np.array([[1.0, 1.0], [3.0, 3.0]])
+        >>> path_tables(cost, delta=1, link_weight=0.0).min_marginals
+        array([[2., 2.],
+               [4., 4.]])
+    """
     columns, reach = _problem(cost, delta, link_weight, constraints)
     forward = _forward(columns, reach, float(link_weight))
     _require_path(forward, constraints)
@@ -98,6 +127,13 @@ def margins(min_marginals: F64, apart: int = 5) -> F64:
 
     The gap between a column's best min-marginal and the best one more than `apart` rows away.
     Small = uncertain; infinite where nothing else is possible.
+
+    Examples:
+        >>> cost = np.full((5, 4), 2.0)
+        >>> cost[1], cost[3] = 1.0, 1.1
+        >>> tables = path_tables(cost, delta=1, link_weight=0.1)
+        >>> margins(tables.min_marginals, apart=1).round(2)
+        array([0.4, 0.4, 0.4, 0.4])
     """
     through = np.ascontiguousarray(min_marginals.T)
     best = through.argmin(axis=1)

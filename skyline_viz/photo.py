@@ -61,6 +61,14 @@ def read_photo(path: str | os.PathLike[str], *, max_megapixels: float | None = N
     Raises:
         PhotoError: Missing, a folder, empty, not an image, a raw file, truncated, too large or
             too small.
+
+    Examples:
+        >>> import numpy as np
+        >>> from tempfile import TemporaryDirectory
+        >>> with TemporaryDirectory() as folder:
+        ...     write_photo(f"{folder}/photo.png", np.zeros((8, 12, 3), np.uint8))
+        ...     read_photo(f"{folder}/photo.png").shape
+        (8, 12, 3)
     """
     return read_photo_with_notes(path, max_megapixels=max_megapixels)[0]
 

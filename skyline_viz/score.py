@@ -1,4 +1,12 @@
-"""Stage 4, score: the filter of each pixel's bin, applied to its grey patch (equation 4)."""
+r"""Stage 4, score: the filter of each pixel's bin, applied to its grey patch (equation 15).
+
+$$
+\hat{u}_i = (\mathbf{h}^{s(i)})^T \mathbf{R}_i \mathbf{z}
+$$
+
+$\mathbf{h}^{s(i)}$ is the filter of the bin $s(i)$, $\mathbf{R}_i \mathbf{z}$ the grey patch around
+the pixel.
+"""
 
 import cv2
 import numba
@@ -20,6 +28,15 @@ def score_at(grey: U8, rows: Int, columns: Int, bins: Int, filters: F32) -> F32:
     Returns:
         ``(n,)`` in [0, 1]: the filter's output, clipped to [0, 255], over 255. Patches reach over
         the border into repeated border pixels.
+
+    Examples:
+        A filter that takes the mean of nine pixels:
+
+        >>> grey = np.full((9, 9), 51, np.uint8)
+        >>> filters = np.full((1, 3, 3), 1 / 9, np.float32)
+        >>> pixel = np.array([4], np.int32)
+        >>> score_at(grey, pixel, pixel, np.array([0], np.int32), filters).round(4)
+        array([0.2], dtype=float32)
     """
     size = filters.shape[1]
     reach = size // 2

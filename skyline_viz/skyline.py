@@ -30,11 +30,12 @@ class SkylineError(ValueError):
 class Skyline:
     """For each column the row of the first terrain pixel; the rows above it are sky.
 
-    >>> skyline = Skyline(rows=[2, 3, 3])
-    >>> skyline.to_mask(height=5).astype(int)[:, 0]
-    array([1, 1, 0, 0, 0])
-    >>> Skyline.from_mask(skyline.to_mask(height=5)) == skyline
-    True
+    Examples:
+        >>> skyline = Skyline(rows=[2, 3, 3])
+        >>> skyline.to_mask(height=5).astype(int)[:, 0]
+        array([1, 1, 0, 0, 0])
+        >>> Skyline.from_mask(skyline.to_mask(height=5)) == skyline
+        True
     """
 
     rows: F32
@@ -87,6 +88,10 @@ class Skyline:
 
         Raises:
             SkylineError: The row of a visible column lies outside the image.
+
+        Examples:
+            >>> Skyline(rows=[2.4, 2.5]).pixel_rows(height=5)
+            array([2, 3])
         """
         rows = np.floor(self.rows.astype(np.float64) + 0.5)
         outside = np.flatnonzero(self.visible & ((rows < 0) | (rows > height)))
@@ -130,6 +135,12 @@ class Skyline:
 
         Raises:
             SkylineError: The width differs, or a visible row lies outside the photo.
+
+        Examples:
+            >>> photo = np.zeros((4, 3, 3), np.uint8)
+            >>> line = Skyline(rows=[1, 2, 2])
+            >>> Skyline.from_painted(line.to_painted(photo)) == line
+            True
         """
         check_photo(photo)
         if paint not in _PAINTS:
@@ -246,11 +257,12 @@ def fill(rows: npt.NDArray[np.floating] | npt.NDArray[np.integer], visible: Bool
 
     Left of the first and right of the last visible column its row is repeated.
 
-    >>> fill(np.array([0, 4, 0, 6]), np.array([False, True, False, True]))
-    array([4., 4., 5., 6.], dtype=float32)
-
     Raises:
         SkylineError: No column is visible.
+
+    Examples:
+        >>> fill(np.array([0, 4, 0, 6]), np.array([False, True, False, True]))
+        array([4., 4., 5., 6.], dtype=float32)
     """
     if not visible.any():
         raise SkylineError("no column is visible, so there is nothing to interpolate from")

@@ -1,10 +1,21 @@
-"""Stage 2, structure tensor: how strong, how straight and which way each pixel's edge is.
+r"""Stage 2, structure tensor: how strong, how straight and which way each pixel's edge is.
+
+The tensor sums products of gradients over three channels and a window (equation 23 of the paper):
+
+$$
+\mathbf{T}_i = \sum_{c} \sum_{j} w_j^i \, \mathbf{g}_j^c (\mathbf{g}_j^c)^T
+\quad \text{with } \mathbf{g} = (g_x, g_y)^T
+$$
 
 The gradient of every colour channel is taken by diagonal 2x2 differences, which are centred
-between four pixels; a separable 6-tap Gaussian, centred between two, brings the tensor back onto
-the pixels (equations 12 to 15 of the paper)::
+between four pixels. A separable 6-tap Gaussian, centred between two, brings the tensor back onto
+the pixels. The eigenvalues $\lambda_1 \ge \lambda_2$ give strength and coherence (equation 24),
+the dominant eigenvector gives the orientation:
 
-    T = sum over channels and window of  w [gx gx, gx gy; gx gy, gy gy]
+$$
+\text{strength} = \sqrt{\lambda_1}, \quad \text{coherence} =
+\frac{\sqrt{\lambda_1} - \sqrt{\lambda_2}}{\sqrt{\lambda_1} + \sqrt{\lambda_2}}
+$$
 """
 
 from collections.abc import Sequence
@@ -38,7 +49,19 @@ class Tensor:
 
 
 def tensor_map(photo: U8) -> Tensor:
-    """Structure tensor of every pixel of an RGB photo; `tensor_at` gives the same values."""
+    """Structure tensor of every pixel of an RGB photo; `tensor_at` gives the same values.
+
+    Args:
+        photo: ``(H, W, 3)`` uint8 RGB.
+
+    Returns:
+        Three maps ``(H, W)``.
+
+    Examples:
+        >>> photo = np.full((12, 10, 3), 200, np.uint8)
+        >>> tensor_map(photo).strength.max()
+        np.float32(0.0)
+    """
     height, width = photo.shape[:2]
     channels = [plane.astype(np.float32) for plane in _padded_channels(photo)]
     falling = [plane[1:, 1:] - plane[:-1, :-1] for plane in channels]
@@ -67,6 +90,18 @@ def tensor_at(photo: U8, rows: Int, columns: Int) -> Tensor:
         photo: ``(H, W, 3)`` uint8 RGB.
         rows: ``(n,)`` int32, each in ``[0, H)``; fastest in ascending order.
         columns: ``(n,)`` int32, each in ``[0, W)``.
+
+    Returns:
+        Three arrays ``(n,)``.
+
+    Examples:
+        A level edge is straight, and its gradient points down.
+
+        >>> photo = np.full((12, 10, 3), 200, np.uint8)
+        >>> photo[6:] = 60
+        >>> tensor = tensor_at(photo, np.array([6], np.int32), np.array([4], np.int32))
+        >>> tensor.coherence, tensor.orientation
+        (array([1.], dtype=float32), array([90.], dtype=float32))
     """
     order = np.argsort(rows, kind="stable")
     first = np.searchsorted(rows[order], np.arange(photo.shape[0] + 1))

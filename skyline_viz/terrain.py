@@ -1,9 +1,14 @@
-"""Sky or terrain: what the photo looks like block by block, edges and learned filters aside.
+r"""Sky or terrain: what the photo looks like block by block, edges and learned filters aside.
 
 Ours, not the paper's. The underside of a cloud can be as strong an edge as a ridge, but what lies
-below it still looks like sky. A linear model of a dozen features of 8x8 pixel blocks says so
-roughly, in about a tenth of a detection's time; summed down the columns it tells, for every pixel,
-how well "all sky above here, all terrain below" fits the photo.
+below it still looks like sky. A linear model $\mathbf{w}$ of a dozen features $\mathbf{f}$ of 8x8
+pixel blocks says so roughly, in about a tenth of a detection's time. Summed down the columns it
+tells, for every pixel, how well "all sky above here, all terrain below" fits the photo. In the
+centre of a block, where the block itself counts half:
+
+$$
+t(i, j) = \frac{1}{H} \sum_{k \le i} \text{clip}(\mathbf{w}^T \mathbf{f}(k, j), -1, 1)
+$$
 """
 
 import cv2
@@ -30,6 +35,11 @@ def block_features(photo: U8, edges: Bool) -> F32:
     Args:
         photo: ``(H, W, 3)`` uint8 RGB.
         edges: ``(H, W)`` edge map.
+
+    Examples:
+        >>> photo = np.full((40, 64, 3), 200, np.uint8)
+        >>> block_features(photo, np.zeros((40, 64), bool)).shape
+        (5, 8, 12)
     """
     colour = _block_means(photo)
     density = _block_means(edges.view(np.uint8) * np.uint8(255))
@@ -68,6 +78,15 @@ def terrain_above(photo: U8, edges: Bool, weights: F32) -> F32:
     Returns:
         ``(h, w)`` float32, summed over the blocks above, in heights of the photo; -0.3 = three
         tenths of the height above this block are surely sky.
+
+    Examples:
+        A model that calls everything sky:
+
+        >>> photo = np.full((40, 8, 3), 200, np.uint8)
+        >>> sky = np.zeros(FEATURES, np.float32)
+        >>> sky[0] = -1
+        >>> terrain_above(photo, np.zeros((40, 8), bool), sky).ravel().round(1)
+        array([-0.1, -0.3, -0.5, -0.7, -0.9], dtype=float32)
     """
     looks = np.clip(block_features(photo, edges) @ weights, -1, 1)
     above: F32 = (np.cumsum(looks, axis=0) - looks / 2) * np.float32(BLOCK / len(edges))

@@ -1,6 +1,13 @@
-"""Training: Gram matrices gathered photo by photo, then one small linear system a bin.
+r"""Training: Gram matrices gathered photo by photo, then one small linear system a bin.
 
-A Gram matrix is a plain sum over training samples (equations 6 and 7), so the work can be spread
+The filter of a bin solves a regularised linear regression (equation 17 of the paper). The rows of
+$\mathbf{A}$ are patches, $\mathbf{b}$ holds their targets, $\mathbf{Q}$ keeps the filter smooth:
+
+$$
+\mathbf{h} = (\mathbf{Q} + \mathbf{A}^T \mathbf{A})^{-1} \mathbf{A}^T \mathbf{b}
+$$
+
+A Gram matrix is a plain sum over training samples (equations 18 and 19), so the work can be spread
 over photos, processes and machines and added up. Patches are whole numbers and targets whole or
 half ones, so the float64 sums are exact: the order of adding does not matter.
 """
@@ -93,6 +100,15 @@ def train(
 
     Raises:
         ValueError: No example, or one whose photo and skyline differ in width.
+
+    Examples:
+        Every column is a positive sample, once as it is and once flipped.
+
+        >>> photo = np.full((40, 60, 3), 200, np.uint8)
+        >>> photo[25:] = 60
+        >>> bank = train([(photo, Skyline(rows=np.full(60, 25)))])
+        >>> int(bank.samples.sum())
+        120
     """
     config = config or TrainingConfig()
     gram = GramMatrices.empty(config)
@@ -136,7 +152,7 @@ def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> Gram
 
 
 def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = "") -> FilterBank:
-    """Filters of all bins, ``(Q + A'A)^-1 A'b`` (equation 5); a starved bin takes a pooled one.
+    """Filters of all bins, ``(Q + A'A)^-1 A'b`` (equation 17); a starved bin takes a pooled one.
 
     Args:
         gram: Sums over all training photos.
@@ -194,8 +210,11 @@ def pooled(sums: F64, bins: Bins, over: tuple[int, ...] = (0, 1)) -> F64:
 def smoothness_form(size: int) -> F64:
     """``Q``: the sum of squared differences of neighbouring taps, ``(n * n, n * n)``.
 
-    >>> smoothness_form(3) @ np.ones(9)
-    array([0., 0., 0., 0., 0., 0., 0., 0., 0.])
+    Examples:
+        A filter whose taps are all alike is perfectly smooth.
+
+        >>> smoothness_form(3) @ np.ones(9)
+        array([0., 0., 0., 0., 0., 0., 0., 0., 0.])
     """
     line = np.diff(np.eye(size), axis=0)
     chain = line.T @ line  # Laplacian of taps in a row

@@ -1,8 +1,15 @@
-"""How sure the cheapest path is: what it would cost to go elsewhere.
+r"""How sure the cheapest path is: what it would cost to go elsewhere.
 
 The min-marginal of a pixel is the cost of the cheapest whole path through it: its forward cost,
 which the path search leaves behind, plus its backward cost less its own. The backward sweep keeps
 a column at a time, so that no second table is ever held.
+
+The margin of a column is the gap between its best min-marginal, in row $b$, and the best one
+further away than $a$ rows. The detour of a pixel is the gap to the best of all:
+
+$$
+m_j = \min_{|k - b| > a} M_j(k) - M_j(b), \quad d_j(k) = M_j(k) - \min M
+$$
 """
 
 from __future__ import annotations
@@ -51,6 +58,14 @@ def uncertainty(
         delta: Largest change of row between neighbouring columns, in pixels.
         link_weight: Cost of one pixel of row change.
         apart: Rows within which two paths count as the same one.
+
+    Examples:
+        >>> from skyline_viz.path import shortest_path
+        >>> cost = np.full((5, 4), 2.0)
+        >>> cost[1], cost[3] = 1.0, 1.1
+        >>> path = shortest_path(cost, delta=1, link_weight=0.1)
+        >>> uncertainty(cost, path.forward, 1, 0.1, apart=1).margins.round(2)
+        array([0.4, 0.4, 0.4, 0.4])
     """
     height, width = cost.shape
     margins = np.empty(width)

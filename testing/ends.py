@@ -5,20 +5,16 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from time import monotonic, sleep
 
 import numpy as np
 import psutil
 
 import skyline_viz as sv
 from skyline_viz.rendering import render
-
-PATIENCE = 120.0
-"""Seconds after which something that was waited for is taken for lost."""
+from testing import PATIENCE, until
 
 
 def write_set(folder: Path, photos: int, size: tuple[int, int] = (480, 360)) -> Path:
@@ -114,9 +110,8 @@ def ended(name: str, ending: signal.Signals, data: Path, folder: Path) -> Left:
     family = psutil.Process(process.pid).children(recursive=True)
     process.send_signal(ending)
     _, errors = process.communicate(timeout=PATIENCE)  # ends when nobody holds the pipe any more
-    deadline = monotonic() + 20
-    while monotonic() < deadline and (_living(family) or list(passing.iterdir())):
-        sleep(0.02)
+    with suppress(AssertionError):  # then it is what is left
+        until(lambda: not _living(family) and not list(passing.iterdir()))
     hidden = [path for path in out.rglob(".*") if not path.name.startswith(".skyline")]
     files = [str(path) for path in (*passing.iterdir(), *hidden)]
     return Left(process.returncode, errors.decode(), _living(family), files)
@@ -129,17 +124,6 @@ def started(words: list[str], folder: Path, **more: str) -> subprocess.Popen[byt
         return subprocess.Popen(
             [sys.executable, "-m", *words], stdout=log, stderr=subprocess.PIPE, env=environment
         )
-
-
-def until(what: Callable[[], object], process: subprocess.Popen[bytes]) -> None:
-    """Wait until something is true, as long as a process runs."""
-    deadline = monotonic() + PATIENCE
-    while not what():
-        if process.poll() is not None or monotonic() > deadline:
-            process.kill()
-            _, errors = process.communicate()
-            raise AssertionError(f"it ended before, or waited in vain: {errors.decode()}")
-        sleep(0.01)
 
 
 def _placed(word: str, places: dict[str, Path]) -> str:

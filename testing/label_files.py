@@ -7,10 +7,12 @@ import zipfile
 
 import cv2
 import numpy as np
+import pytest
 import tifffile
 from PIL import Image, ImageFilter
 
-from skyline_viz.skyline import Skyline
+from skyline_viz.datasets.truths import read_truth
+from skyline_viz.skyline import Skyline, SkylineError
 
 HEIGHT, WIDTH = 120, 160
 NAME = "ridge.png"
@@ -332,3 +334,13 @@ def zipped(path, members):
         for name, content in members.items():
             packed.writestr(name, content)
     return path
+
+
+def said_about(path, **options):
+    with pytest.raises(SkylineError) as caught:
+        read_truth(path, **options)
+    said = str(caught.value)
+    assert said.startswith(str(path))
+    assert said.endswith(".")
+    assert len(said.splitlines()) == 1
+    return said

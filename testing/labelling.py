@@ -1,7 +1,9 @@
 """A folder of photos and a server over it, for tests of labelling."""
 
+import re
+import subprocess
+import sys
 import threading
-import time
 import uuid
 from contextlib import contextmanager
 
@@ -16,6 +18,7 @@ from annotate.store.store import Store
 from annotate.work.workbench import Assignment, Workbench
 from skyline_viz.detector import Detector
 from skyline_viz.photo import write_photo
+from testing import until
 
 TOKEN = "a-token-for-tests"
 DETECTOR = Detector()
@@ -63,9 +66,21 @@ def served(folder, **how):
         with httpx.Client(
             base_url=f"http://127.0.0.1:{port}", headers={TOKEN_HEADER: TOKEN}, timeout=30
         ) as client:
-            while not server.started:
-                time.sleep(0.01)
+            until(lambda: server.started)
             yield client
     finally:
         server.should_exit = True
         thread.join()
+
+
+def started(folder):
+    """A server in a process of its own, and a client for it."""
+    words = [sys.executable, "-m", "annotate", "open", folder, "--no-browser", "--annotator", "ann"]
+    process = subprocess.Popen(
+        words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    for line in process.stdout:
+        if found := re.search(r"(http://127\.0\.0\.1:\d+)/\?token=(\S+)", line):
+            client = httpx.Client(base_url=found[1], headers={TOKEN_HEADER: found[2]}, timeout=20)
+            return process, client
+    raise AssertionError(process.stderr.read())

@@ -7,6 +7,7 @@ import cv2
 import numpy as np
 from rerun.chunk import RrdReader
 
+import skyline_viz as sv
 from skyline_viz.viewer.process import PROGRAM
 
 
@@ -96,3 +97,12 @@ class Read:
             if label and (number := re.search(r"-?\d+(\.\d+)?", label)):
                 told[index] = float(number[0])
         return told[self.classes(entity)]
+
+
+def scene(height=90, width=120, noise=6, seed=0):
+    """A photo of a ridge with noise, and its truth."""
+    generator = np.random.default_rng(seed)
+    rows = np.round(height * (0.4 + 0.1 * np.sin(np.arange(width) / 9)))
+    photo = np.where(sv.Skyline(rows).to_mask(height)[..., None], (150, 190, 230), (70, 80, 50))
+    photo = photo + generator.normal(0, noise, photo.shape)
+    return photo.clip(0, 255).astype(np.uint8), sv.Skyline(rows, np.arange(width) != 60)

@@ -1,12 +1,8 @@
 """Drives the viewer as a person would: hovers, clicks, types, and reads what it says."""
 
-from time import monotonic, sleep
-
 import psutil
 
 from skyline_viz.gallery.hand import Hand
-
-PATIENCE = 40.0
 
 
 def listening(process=None):
@@ -25,15 +21,6 @@ def viewer_port(besides=()):
     here = psutil.Process().pid
     (port,) = {port for pid, _, port in listening() if pid != here} - set(besides)
     return port
-
-
-def until(what, patience=PATIENCE):
-    """Ask again and again until the answer is true, and return it."""
-    deadline = monotonic() + patience
-    while not (answer := what()):
-        assert monotonic() < deadline, "it never happened"
-        sleep(0.1)
-    return answer
 
 
 class Robot(Hand):

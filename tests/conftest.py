@@ -2,6 +2,9 @@
 
 import pytest
 
+from skyline_viz.cli import main
+from testing.commands import scene, write_scene
+
 
 @pytest.fixture(autouse=True, scope="session")
 def state_of_their_own(tmp_path_factory):
@@ -9,3 +12,28 @@ def state_of_their_own(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
         yield
+
+
+@pytest.fixture(scope="session")
+def hills(tmp_path_factory):
+    """A data set of four photos with truth; nobody writes here."""
+    root = tmp_path_factory.mktemp("data") / "hills"
+    for number in range(4):
+        write_scene(root / "images" / f"p{number}.png", number)
+        scene(number)[1].write_csv(root / "masks" / f"p{number}.csv")
+    return root
+
+
+@pytest.fixture
+def say(tmp_path, monkeypatch, capsys):
+    """Run a command line in an empty folder, without a browser: status, stdout, stderr."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("CI", "1")
+
+    def run(*words):
+        status = main([str(word) for word in words])
+        printed = capsys.readouterr()
+        assert "Traceback" not in printed.err
+        return status, printed.out, printed.err
+
+    return run

@@ -6,13 +6,14 @@ from types import SimpleNamespace
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.bins import Bins
 from skyline_viz.tensor import Tensor, tensor_map
+from testing.examples import examples
 
-STEADY = settings(deadline=None, derandomize=True, max_examples=80)
+STEADY = examples(80)
 
 
 def features(coherence, strength, orientation):

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.cost import add_blocks, edge_cost, nodal_cost, normalised
+from testing.examples import examples
 
-STEADY = settings(deadline=None, derandomize=True, max_examples=60)
+STEADY = examples(60)
 
 
 def float32(*values):

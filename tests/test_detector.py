@@ -2,51 +2,29 @@
 
 import pickle
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import FrozenInstanceError, replace
+from dataclasses import replace
 
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.bins import Bins
 from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import edge_cost, normalised
 from skyline_viz.detector import Detector
-from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import margins, path_tables
-from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
-from skyline_viz.tensor import tensor_at
+from testing.detections import BOTH, mountains, random_photo
+from testing.examples import examples
 
-STEADY = settings(deadline=None, derandomize=True, max_examples=25)
-CONFIGS = {"default": DetectorConfig(), "paper": DetectorConfig.paper()}
-BOTH = pytest.mark.parametrize("config", CONFIGS.values(), ids=CONFIGS)
+STEADY = examples(25)
 
 STAGES = ("skyline", "edges", "edge_rows", "edge_columns", "strength", "coherence")
 STAGES += ("orientation", "bins", "scores", "cost", "path_cost", "thresholds")
-
-
-def mountains(height=120, width=180, seed=0):
-    """Photo of a rugged ridge with rocks below a hazy sky, and its true skyline."""
-    rng = np.random.default_rng(seed)
-    columns = np.arange(width)
-    rows = height * 0.45 + 0.1 * height * np.sin(columns / 19 + seed)
-    rows += 0.05 * height * np.sin(columns / 7 + 2 * seed)
-    truth = Skyline(np.round(rows))
-    sky = np.linspace((110, 150, 220), (200, 215, 235), height)[:, None]
-    rocks = cv2.resize(rng.uniform(30, 110, (height // 6, width // 6)), (width, height))
-    terrain = rocks[:, :, None] * (1.0, 0.95, 0.8)
-    photo = np.where(truth.to_mask(height)[:, :, None], sky, terrain)
-    photo = cv2.GaussianBlur(photo, (0, 0), 0.6) + rng.normal(0, 1, photo.shape)
-    return np.clip(photo, 0, 255).astype(np.uint8), truth
-
-
-def random_photo(height, width, seed=0):
-    return np.random.default_rng(seed).integers(0, 256, (height, width, 3), dtype=np.uint8)
 
 
 @pytest.fixture(scope="module")
@@ -70,68 +48,6 @@ def assert_same(one, other):
 
 
 # What a detection holds
-
-
-@BOTH
-def test_every_field_has_its_shape_type_and_range(config):
-    photo, _ = mountains()
-    detection = Detector(config=config).detect(photo)
-    height, width = photo.shape[:2]
-    count = len(detection.edge_rows)
-    assert count > 100
-    assert np.array_equal(detection.photo, photo)
-    assert detection.skyline.rows.shape == (width,)
-    assert detection.skyline.rows.dtype == np.float32
-    assert detection.skyline.visible.all()
-    assert (detection.skyline.rows % 1 == 0).all()
-    assert 0 <= detection.skyline.rows.min() <= detection.skyline.rows.max() <= height - 1
-    for name, shape, dtype, low, high in (
-        ("edges", (height, width), np.bool_, 0, 1),
-        ("edge_rows", (count,), np.int32, 0, height - 1),
-        ("edge_columns", (count,), np.int32, 0, width - 1),
-        ("strength", (count,), np.float32, 0, np.inf),
-        ("coherence", (count,), np.float32, 0, 1),
-        ("orientation", (count,), np.float32, 0, 180 - 1e-5),
-        ("bins", (count,), np.int32, 0, detection.bank.bins.count - 1),
-        ("scores", (count,), np.float32, 0, 1),
-        ("cost", (height, width), np.float32, -np.inf, np.inf),
-    ):
-        array = getattr(detection, name)
-        assert array.shape == shape, name
-        assert array.dtype == dtype, name
-        assert low <= array.min() <= array.max() <= high, name
-    assert isinstance(detection.path_cost, float)
-    assert np.isfinite(detection.cost).all()
-    assert detection.config is config
-    assert detection.bank.bins.count == 288
-    assert 0 < detection.thresholds[0] <= config.low_threshold
-    assert 0 < detection.thresholds[1] <= config.high_threshold
-
-
-def test_every_stage_is_timed(detector):
-    detection = detector.detect(mountains()[0])
-    assert list(detection.seconds) == ["edges", "tensor", "bins", "score", "cost", "path"]
-    assert all(seconds >= 0 for seconds in detection.seconds.values())
-    assert detection.total_seconds == pytest.approx(sum(detection.seconds.values()))
-
-
-@BOTH
-def test_stages_follow_from_each_other(config):
-    photo, _ = mountains(seed=2)
-    detection = Detector(config=config).detect(photo)
-    edges, thresholds = candidate_edges(photo, config)
-    assert np.array_equal(detection.edges, edges)
-    assert detection.thresholds == thresholds
-    rows, columns = edge_pixels(edges)
-    assert np.array_equal(detection.edge_rows, rows)
-    assert np.array_equal(detection.edge_columns, columns)
-    tensor = tensor_at(photo, rows, columns)
-    assert np.array_equal(detection.strength, tensor.strength)
-    assert np.array_equal(detection.coherence, tensor.coherence)
-    assert np.array_equal(detection.orientation, tensor.orientation)
-    assert np.array_equal(detection.bins, detection.bank.bins.of(tensor))
-    scores = score_at(to_grey(photo), rows, columns, detection.bins, detection.bank.filters)
-    assert np.array_equal(detection.scores, scores)
 
 
 def test_the_papers_cost_is_the_fusion_of_score_and_strength():
@@ -172,14 +88,6 @@ def test_clear_sky_and_terrain_change_the_cost():
     )
     assert np.abs(light).max() > 0.05
     assert np.allclose(heavy, 4 * light, atol=1e-4)
-
-
-def test_a_detection_is_frozen(detector):
-    detection = detector.detect(random_photo(20, 30))
-    with pytest.raises(FrozenInstanceError):
-        detection.edges = None
-    with pytest.raises(FrozenInstanceError):
-        detector.config = DetectorConfig.paper()
 
 
 # What it finds
@@ -391,22 +299,3 @@ def test_the_given_bank_scores():
     assert not detection.scores.any()
     assert detection.bank is silent
     assert Detector(bank).detect(photo).scores.any()
-
-
-def test_margins_shrink_when_a_second_line_appears():
-    photo = np.full((60, 80, 3), 200, np.uint8)
-    photo[20:] = 120
-    alone = Detector().detect(photo)
-    photo[40:] = 20
-    rivalled = Detector().detect(photo)
-    assert alone.margins().shape == (80,)
-    assert (rivalled.margins() < alone.margins()).all()
-    assert (rivalled.margins() > 0).all()
-
-
-def test_the_arrays_of_a_detection_are_frozen_but_not_the_photo():
-    photo = mountains(40, 60)[0]
-    detection = Detector().detect(photo)
-    for name in ("edges", "edge_rows", "strength", "bins", "scores", "cost"):
-        assert not getattr(detection, name).flags.writeable, name
-    assert photo.flags.writeable

@@ -3,13 +3,14 @@
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.config import DetectorConfig
-from skyline_viz.edges import FRAME_SHARE, candidate_edges, edge_pixels, to_grey
+from skyline_viz.edges import FRAME_SHARE, candidate_edges, edge_pixels, fitted_thresholds, to_grey
+from testing.examples import examples
 
-STEADY = settings(deadline=None, derandomize=True, max_examples=60)
+STEADY = examples(60)
 SOURCES = pytest.mark.parametrize("source", ["grey", "colour"])
 
 
@@ -196,6 +197,14 @@ def test_grey_and_colour_are_fitted_to_what_they_see():
     photo = cv2.GaussianBlur(step(20, (40, 110, 230), (150, 100, 18)), (0, 0), 4)
     photo = np.tile(photo, (4, 1, 1))
     assert thresholds_of(photo, "grey")[1] < thresholds_of(photo, "colour")[1]
+
+
+@pytest.mark.parametrize(("share", "factor"), [(0.08, 0.5), (0.03, 0.3)])
+def test_strong_gradients_are_those_of_a_twentieth_of_the_photo(share, factor):
+    across = np.full((600, 600), 5, np.int16)
+    across[: round(600 * share)] = 400
+    low, high = fitted_thresholds(across, np.zeros_like(across), 100.0, 480.0)
+    assert (low, high) == (pytest.approx(100 * factor), pytest.approx(480 * factor))
 
 
 def test_thresholds_are_plain_numbers():

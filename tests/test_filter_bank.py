@@ -15,7 +15,7 @@ from skyline_viz.bins import Bins
 from skyline_viz.config import FILTER_SIZES, DetectorConfig
 from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank, FilterBankError, Provenance
 from skyline_viz.terrain import FEATURES
-from testing.earlier_files import write_bank
+from testing.methods import write_bank
 
 SMALL = Bins(2, 2, 1, 0.7, 10, 99)
 

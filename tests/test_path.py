@@ -6,13 +6,14 @@ from math import floor
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
 from skyline_viz.path import margins, path_tables, shortest_path
+from testing.examples import examples
 
-STEADY = settings(deadline=None, derandomize=True, max_examples=150)
+STEADY = examples(150)
 INF = np.inf
 
 

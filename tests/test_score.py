@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.config import FILTER_SIZES
 from skyline_viz.score import score_at
+from testing.examples import examples
 
-STEADY = settings(deadline=None, derandomize=True, max_examples=40)
+STEADY = examples(40)
 
 
 def slow_score(grey, row, column, taps):

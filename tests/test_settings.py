@@ -18,7 +18,7 @@ from skyline_viz.settings import (
     spelt,
     within,
 )
-from tests.test_detector_files import configs
+from testing.methods import configurations
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ def test_names_of_configurations():
 
 
 @settings(max_examples=60, deadline=None)
-@given(configs)
+@given(configurations)
 def test_a_name_says_all_settings(config):
     base, _, rest = config.name.partition(":")
     changed = dict(one.split("=") for one in rest.split(",") if one)

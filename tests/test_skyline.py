@@ -5,7 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.photo import read_photo, write_photo
@@ -246,9 +246,6 @@ def test_all_sky_cannot_be_painted():
 
 
 # CSV
-
-
-@settings(deadline=None)
 @given(skyline=skylines())
 def test_csv_round_trip(folder, skyline):
     skyline.write_csv(folder / "a.csv")
@@ -305,9 +302,6 @@ def test_csv_that_is_refused(tmp_path, content):
 
 
 # JSON
-
-
-@settings(deadline=None)
 @given(skyline=skylines())
 def test_json_round_trip(folder, skyline):
     skyline.write_json(folder / "a.json")

@@ -6,12 +6,13 @@ from math import atan2, degrees, sqrt
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.tensor import WINDOW, tensor_at, tensor_map
+from testing.examples import examples
 
-STEADY = settings(deadline=None, derandomize=True, max_examples=40)
+STEADY = examples(40)
 
 
 def noise(height=17, width=23, seed=0):

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -20,7 +20,6 @@ COSTS = hnp.arrays(
 )
 
 
-@settings(deadline=None)  # the first call compiles
 @given(cost=COSTS, delta=st.integers(0, 3), link=st.sampled_from([0.0, 0.1, 1.0]))
 def test_agrees_with_the_tables_of_the_path(cost, delta, link):
     try:
@@ -36,7 +35,6 @@ def test_agrees_with_the_tables_of_the_path(cost, delta, link):
         np.testing.assert_allclose(found.detour, through - through.min(), atol=1e-5)
 
 
-@settings(deadline=None)  # the first call compiles
 @given(cost=COSTS.filter(lambda cost: np.isfinite(cost).all()), delta=st.integers(0, 3))
 def test_the_best_path_is_no_detour_and_everything_else_is_no_gain(cost, delta):
     rows = shortest_path(cost, delta, 0.1).rows

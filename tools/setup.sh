@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Make the virtual environment .venv and install what the project needs, system packages included.
-#   tools/setup.sh run    what running needs: the package and its dependencies
-#   tools/setup.sh dev    the locked development set as well
+# Make the virtual environment .venv and install what the project needs, in the versions that were tested.
+#   tools/setup.sh run    what running needs: the package and requirements.txt
+#   tools/setup.sh dev    what development needs: requirements-dev.txt, which holds the same versions
+# System packages that are missing are installed with apt-get, where that is allowed without a password;
+# NO_APT=1 does without, and says what would be missing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 kind=${1:-run}
@@ -22,15 +24,25 @@ find_python() {
     return 1
 }
 
+# Install system packages; what apt-get says is shown only when it fails.
 apt_install() {
-    local as_root=()
+    local as_root=() log
+    [ -z "${NO_APT:-}" ] || return 1
     command -v apt-get >/dev/null 2>&1 || return 1
     if [ "$(id -u)" != 0 ]; then
         command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null || return 1
         as_root=(sudo -n)
     fi
-    say "installing $* with apt-get"
-    "${as_root[@]}" apt-get update -q >/dev/null && DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -qy "$@" >/dev/null
+    say "installing $* on this system with apt-get (NO_APT=1 does without)"
+    log=$(mktemp)
+    if "${as_root[@]}" apt-get update -q >"$log" 2>&1 &&
+        "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qy "$@" >>"$log" 2>&1; then
+        rm "$log"
+    else
+        tail -n 5 "$log" >&2
+        rm "$log"
+        return 1
+    fi
 }
 
 if [ ! -x .venv/bin/python ] || ! usable .venv/bin/python; then
@@ -48,20 +60,20 @@ if [ ! -x .venv/bin/python ] || ! usable .venv/bin/python; then
     "$python" -m venv .venv
 fi
 
-pip=(.venv/bin/python -m pip --disable-pip-version-check --quiet)
+pip=(.venv/bin/python -m pip --disable-pip-version-check --quiet --no-input)
 if [ "$kind" = dev ]; then
     say "installing the locked development set"
-    "${pip[@]}" install -r requirements-dev.txt
-    "${pip[@]}" install --no-deps --no-build-isolation -e .
+    "${pip[@]}" install --require-hashes -r requirements-dev.txt
     # The extra deep. Torch is not in the locked set: that is for all systems, and torch would bring
     # gigabytes of CUDA packages into it, on machines that find a build for the CPU alone, too.
     "${pip[@]}" install 'torch==2.13.0' || {
         say "torch 2.13.0 could not be installed; tests of the extra deep will be reported as not run."
     }
 else
-    say "installing skyline-viz and what it needs"
-    "${pip[@]}" install -e .
+    say "installing the locked set that running needs"
+    "${pip[@]}" install --require-hashes -r requirements.txt
 fi
+"${pip[@]}" install --no-deps --no-build-isolation -e .
 
 # The viewer draws pictures without a screen when there is a Vulkan driver; Mesa's works anywhere.
 vulkan() { ls /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json >/dev/null 2>&1; }
@@ -79,11 +91,10 @@ if [ "$kind" = dev ] && [ "$(uname)" = Linux ] && ! browser >/dev/null 2>&1; the
         exit 1
     }
 fi
-# ... and the page's JavaScript under Node.
-if [ "$kind" = dev ] && ! command -v node >/dev/null 2>&1; then
-    apt_install nodejs || {
-        say "Node could not be installed; tests of the labelling page need it."
-        say "Install it (on Debian and Ubuntu: apt-get install nodejs), then run this again."
+# ... and check the page's JavaScript with tsc and eslint, under the locked set's Node.
+if [ "$kind" = dev ]; then
+    PATH="$PWD/.venv/bin:$PATH" npm ci --prefix tools/page --ignore-scripts --silent || {
+        say "npm could not install typescript and eslint, which check the labelling page; is its registry reachable?"
         exit 1
     }
 fi

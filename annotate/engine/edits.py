@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import Literal
+from typing import Literal, get_args
 
 import cv2
 import numpy as np
@@ -25,7 +25,8 @@ SpanKind = Literal["straight", "drawn"]
 """How a span came about: a straight line between two pixels, or drawn by hand."""
 
 
-ORIGINS = ("proposal", "solved", "straight", "drawn")
+Origin = Literal["proposal", "solved", "straight", "drawn"]
+ORIGINS: tuple[Origin, ...] = get_args(Origin)
 """Where the row of a column is from: offered by the detector and not changed since; solved under
 what the annotator asked for; on a straight span; drawn by hand."""
 

@@ -49,14 +49,15 @@ class Alternative:
 class LiveWire:
     """A photo's skyline while it is labelled.
 
-    >>> photo = np.full((40, 60, 3), 200, np.uint8)
-    >>> photo[25:] = 60
-    >>> from skyline_viz import Detector
-    >>> wire = LiveWire(photo, Detector())
-    >>> wire.skyline.rows[:3]
-    array([25., 25., 25.], dtype=float32)
-    >>> float(wire.anchor(30, 20).rows[30])
-    20.0
+    Examples:
+        >>> photo = np.full((40, 60, 3), 200, np.uint8)
+        >>> photo[25:] = 60
+        >>> from skyline_viz import Detector
+        >>> wire = LiveWire(photo, Detector())
+        >>> wire.skyline.rows[:3]
+        array([25., 25., 25.], dtype=float32)
+        >>> float(wire.anchor(30, 20).rows[30])
+        20.0
     """
 
     def __init__(self, photo: U8, detector: Method | None) -> None:

@@ -74,6 +74,18 @@ FORMATS: dict[str, tuple[Writer, Reader]] = {
 }
 """How each format is written and read."""
 
+TITLES = {
+    "csv": "CSV: column, row, visible",
+    "json": "JSON with everything",
+    "mask": "Masks",
+    "painted": "Painted photos, Web layout",
+    "ch1": "CH1 layout",
+    "coco": "COCO",
+    "labelme": "LabelMe",
+    "cvat": "CVAT",
+}
+"""What each format is called where people choose one."""
+
 WITHOUT_PHOTOS = ("csv", "json")
 """Formats that say nothing of a photo's file but its name."""
 

@@ -5,19 +5,18 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
-from annotate.engine.edits import ORIGINS
+from annotate.engine.edits import ORIGINS, Origin
 from annotate.formats.common import Entry, FormatError, Imported, check_size
 from annotate.formats.documents import json_of
 from annotate.formats.importing import Task
 from annotate.formats.orphans import gone
 from annotate.store.contents import Contents
-from annotate.store.labels import MOST_PASSES, Label, check_annotator
-from annotate.store.operations import Status
+from annotate.store.labels import MOST_PASSES, Label, Status, check_annotator
 from skyline_viz.files import write_text
 from skyline_viz.skyline import Skyline, SkylineError
 
@@ -34,8 +33,6 @@ _VERSION = 2  # 1 had no undo of a status, and a program that knows no other wou
 _KNOWN = (1, 2)
 _SIDE = 100_000  # pixels
 
-Origin = Literal["proposal", "solved", "straight", "drawn"]
-assert Origin.__args__ == ORIGINS  # type: ignore[attr-defined]
 Digest = Annotated[str, Field(pattern=r"^([0-9a-f]{64})?$")]
 Side = Annotated[int, Field(ge=1, le=_SIDE)]
 

@@ -8,15 +8,20 @@ from fastapi import APIRouter, HTTPException, Query, Response
 
 from annotate.formats import FORMATS, archive
 from annotate.server.dependencies import Bench, TheLearner
-from annotate.server.messages import Nothing, PhotoList, Sheet, ShownPhoto, ShownProgress
-from annotate.store.labels import TAGS
-from annotate.store.store import Card
+from annotate.server.messages import Legend, Nothing, PhotoList, Sheet, ShownPhoto, ShownProgress
+from annotate.store.cards import Card
 from annotate.work.learning import Learning
 from annotate.work.workbench import Workbench
 
 router = APIRouter()
 
 _SHEET = 24  # strips a page
+
+
+@router.get("/legend")
+def legend() -> Legend:
+    """Words and colours that are the same for every photo."""
+    return Legend.made()
 
 
 @router.get("/photos")
@@ -28,7 +33,6 @@ def photos(bench: Bench) -> PhotoList:
         folder=bench.store.folder.resolve().name,
         annotator=who.annotator,
         number=who.number,
-        tags=TAGS,
         photos=_shown(bench, cards),
         progress=ShownProgress.of(bench.progress(cards)),
     )

@@ -9,11 +9,15 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from annotate.engine.edits import ORIGINS, Stroke
-from annotate.store.operations import Operation, Place, Status, spoken
-from annotate.store.store import Card
+from annotate.formats import TITLES
+from annotate.store.cards import Card
+from annotate.store.labels import STATUSES, TAGS, Status
+from annotate.store.operations import Operation, Place, spoken
+from annotate.work.images import BAND, STAGES, TILE
 from annotate.work.session import Session
 from annotate.work.workbench import Progress
 from skyline_viz.arrays import F64, Int
+from skyline_viz.overlay import ALTERNATIVE, ANCHOR, HALO, PATH, css
 from skyline_viz.system.memory import photo_limit
 
 Revision = Annotated[int, Field(ge=-1, le=2**62)]
@@ -53,6 +57,61 @@ class Pixel(_Request):
 
 class Nothing(_Request):
     """A request that says nothing but that it is one."""
+
+
+class Colours(BaseModel):
+    """Colours of what is drawn over a photo, as CSS writes them."""
+
+    line: str
+    """The line as it is."""
+
+    preview: str
+    """Another line: a preview, and what waits for the server."""
+
+    anchor: str
+    halo: str
+    """What surrounds all of them."""
+
+
+class ShownFormat(BaseModel):
+    """A format in which labels leave."""
+
+    name: str
+    says: str
+
+
+class Legend(BaseModel):
+    """What is the same for every photo: words and colours that the page shows."""
+
+    statuses: tuple[Status, ...]
+    tags: tuple[str, ...]
+    """Tags that are offered."""
+
+    stages: tuple[str, ...]
+    """Stages that can be laid over a photo."""
+
+    formats: tuple[ShownFormat, ...]
+    colours: Colours
+    tile: int
+    """Side of a tile, in pixels."""
+
+    band: int
+    """Rows above and below the line in a strip."""
+
+    @classmethod
+    def made(cls) -> Legend:
+        """Put together what is defined elsewhere."""
+        return cls(
+            statuses=STATUSES,
+            tags=TAGS,
+            stages=STAGES,
+            formats=tuple(ShownFormat(name=name, says=says) for name, says in TITLES.items()),
+            colours=Colours(
+                line=css(PATH), preview=css(ALTERNATIVE), anchor=css(ANCHOR), halo=css(HALO)
+            ),
+            tile=TILE,
+            band=BAND,
+        )
 
 
 class ShownPhoto(BaseModel):
@@ -114,7 +173,6 @@ class PhotoList(BaseModel):
     folder: str
     annotator: str
     number: int
-    tags: tuple[str, ...]
     photos: list[ShownPhoto]
     progress: ShownProgress
 

@@ -1,37 +1,59 @@
 /** What is done to a photo as a whole: its status, its tags, undo. */
 
-import * as dialogs from "./dialogs.js";
+import { showTags } from "./dialogs.js";
+import { Events } from "./events.js";
+import { isChange } from "./operations.js";
+
+/** @import { Labelling } from "./labelling.js" */
+/** @import { Item } from "./queue.js" */
+/** @import { Sheet } from "./sheet.js" */
+/** @import { Document, ShownPhoto, Status } from "./types.js" */
+
+/** @typedef {{id: number, name: string, status: Status, revision: number}} Done - A status that a photo was given. */
 
 /**
  * Everything here is done to the photo that `target` names, which is one that is seen.
  * Event: `change`, when something else would be undone.
+ *
+ * @extends {Events<{change: undefined}>}
  */
-export class Actions extends EventTarget {
+export class Actions extends Events {
   #labelling;
   #sheet;
   /**
-   * What Undo takes back although its photo has been left: {id, name, status, revision}, newest last.
-   * The revision is that of the status itself, so that nothing that was done since is taken back for it.
+   * What Undo takes back although its photo has been left, newest last. The revision is that of the status
+   * itself, so that nothing that was done since is taken back for it.
+   *
+   * @type {Done[]}
    */
   #trail = [];
+  /** @type {Done | null} */
   #latest = null; // what was said last, and the button beside the words takes back
 
+  /**
+   * @param {Labelling} labelling
+   * @param {Sheet} sheet
+   */
   constructor(labelling, sheet) {
     super();
     this.#labelling = labelling;
     this.#sheet = sheet;
-    labelling.addEventListener("document", ({ detail }) => {
-      if (detail.fresh) this.#follow([]);
+    labelling.on("document", ({ fresh }) => {
+      if (fresh) this.#follow([]);
     });
-    labelling.addEventListener("did", () => {
+    labelling.on("did", () => {
       if (!sheet.shown) this.#follow([]); // something has been done since
     });
-    sheet.addEventListener("page", () => this.#follow([]));
-    labelling.addEventListener("status", ({ detail }) => this.#tellStatus(detail));
-    labelling.queue.addEventListener("kept", ({ detail: { item, document } }) => this.#keepUp(item, document));
+    sheet.on("page", () => this.#follow([]));
+    labelling.on("status", (change) => this.#tellStatus(change));
+    labelling.queue.on("kept", ({ item, document }) => this.#keepUp(item, document));
   }
 
-  /** The photo that is worked on: that of the sheet's card, or the one that is shown; null while there is none. */
+  /**
+   * The photo that is worked on: that of the sheet's card, or the one that is shown; null while there is none.
+   *
+   * @returns {Document | ShownPhoto | null}
+   */
   target() {
     if (this.#sheet.shown) return this.#sheet.card;
     const { document, loading } = this.#labelling;
@@ -42,80 +64,135 @@ export class Actions extends EventTarget {
   get undoes() {
     const last = this.#trail.at(-1);
     if (last) return `${last.name} ${last.status}`;
-    const photo = this.target();
-    if (!photo || this.#sheet.shown) return "";
-    const waiting = this.#labelling.queue.of(photo.id).filter((item) => item.operation && isChange(item));
-    return waiting.length ? waiting.at(-1).says : photo.can_undo ? photo.undo_what ?? "the last edit" : "";
+    const photo = this.#shown();
+    if (!photo) return "";
+    const waiting = this.#labelling.queue.of(photo.id).filter((item) => item.operation && isChange(item)).at(-1);
+    if (waiting) return waiting.says;
+    return photo.can_undo ? photo.undo_what ?? "the last edit" : "";
   }
 
   /** Whether Redo does something. */
   get redoes() {
-    const photo = this.#sheet.shown ? null : this.target();
+    const photo = this.#shown();
     return Boolean(photo?.can_redo || (photo && this.#labelling.queue.of(photo.id).at(-1)?.what === "undo"));
   }
 
-  /** Give the photo a status, and go on to the next one. */
+  /**
+   * Give the photo a status, and go on to the next one.
+   *
+   * @param {Status} status
+   */
   finish(status) {
     return this.#set(status, true);
   }
 
-  /** Give the photo a status, and stay. */
+  /**
+   * Give the photo a status, and stay.
+   *
+   * @param {Status} status
+   */
   setStatus(status) {
     return this.#set(status, false);
   }
 
+  /** The photo that is shown; null where the sheet is, or another photo is on its way. */
+  #shown() {
+    return this.#sheet.shown || this.#labelling.loading ? null : this.#labelling.document;
+  }
+
+  /**
+   * @param {Status} status
+   * @param {boolean} goOn
+   */
   async #set(status, goOn) {
-    const labelling = this.#labelling;
     const photo = this.target();
-    if (!photo) return;
-    const waiting = labelling.queue.of(photo.id);
-    if (status === "accepted" && photo.rows === null && !waiting.length) {
-      return labelling.say(`${photo.name} has no line yet, so there is nothing to accept.`, true);
-    }
-    const twice = waiting.at(-1)?.operation;
-    if (twice?.kind === "status" && twice.status === status) return; // pressed again while it is on its way
-    const inSheet = this.#sheet.shown;
-    if (inSheet && goOn) this.#sheet.step(1);
-    if (!waiting.length && photo.status === status) {
-      return this.#goOn(goOn && !inSheet, photo, `${photo.name} is ${status} already.`);
-    }
+    if (!photo || !this.#makesSense(photo, status)) return;
+    const leaves = goOn && !this.#sheet.shown;
+    if (goOn && !leaves) this.#sheet.step(1);
+    const already = photo.status === status && !this.#labelling.queue.of(photo.id).length;
+    if (already) await this.#goOn(leaves, photo, `${photo.name} is ${status} already.`);
+    else await this.#send(photo, status, leaves);
+  }
+
+  /**
+   * Whether a photo can be given a status; if not, why is said.
+   *
+   * @param {Document | ShownPhoto} photo
+   * @param {Status} status
+   */
+  #makesSense(photo, status) {
+    const waiting = this.#labelling.queue.of(photo.id);
+    const last = waiting.at(-1)?.operation;
+    if (last?.kind === "status" && last.status === status) return false; // pressed again while it is on its way
+    const empty = "rows" in photo && photo.rows === null && !waiting.length;
+    if (status !== "accepted" || !empty) return true;
+    this.#labelling.say(`${photo.name} has no line yet, so there is nothing to accept.`, true);
+    return false;
+  }
+
+  /**
+   * @param {Document | ShownPhoto} photo
+   * @param {Status} status
+   * @param {boolean} goOn
+   */
+  async #send(photo, status, goOn) {
+    const labelling = this.#labelling;
     const done = { id: photo.id, name: photo.name, status, revision: -1 };
     const sent = labelling.send(photo, { what: "operations", operation: { kind: "status", status }, says: `“${status}”` });
-    if (inSheet) this.#follow([...this.#trail, done]);
+    if (this.#sheet.shown) this.#follow([...this.#trail, done]);
     const kept = await sent;
-    if (kept?.status !== status) return this.#follow(this.#trail.filter((one) => one !== done));
+    if (kept?.status !== status) return this.#forget([done]);
     done.revision = kept.kept ?? kept.revision;
     this.#latest = done;
     if (labelling.queue.of(photo.id).some(isChange)) return; // it does not stay so: what is said is said of that
-    await this.#goOn(goOn && !inSheet, photo, `${photo.name} is ${status}.`, done);
+    await this.#goOn(goOn, photo, `${photo.name} is ${status}.`, done);
   }
 
-  /** Go on from a photo, if it is still the one that is seen, and say what became of it. */
+  /**
+   * Go on from a photo, if it is still the one that is seen, and say what became of it.
+   *
+   * @param {boolean} goOn
+   * @param {{id: number}} photo
+   * @param {string} said
+   * @param {Done | null} [done]
+   */
   async #goOn(goOn, photo, said, done = null) {
     const labelling = this.#labelling;
-    if (goOn && labelling.document?.id === photo.id && !labelling.loading && !this.#sheet.shown) {
-      const next = labelling.following();
-      if (!next) said += " No photo is to do any more.";
-      else if (!await labelling.open(next.id)) return; // which has said why
-      else if (done) this.#follow([done]);
-      if (labelling.document.doubtful !== null && next) said += ` A diagnosis doubts the truth around column ${labelling.document.doubtful} of this one.`;
-    }
-    labelling.say(said, false, done && (() => this.#takeBack(done)));
+    const seen = labelling.document?.id === photo.id && !labelling.loading && !this.#sheet.shown;
+    const more = goOn && seen ? await this.#openNext(done) : "";
+    if (more !== null) labelling.say(`${said}${more}`, false, done && (() => this.#takeBack(done)));
+  }
+
+  /**
+   * What there is to say of the next photo; null where it could not be opened, which has been said.
+   *
+   * @param {Done | null} done - What was done to the last one.
+   */
+  async #openNext(done) {
+    const labelling = this.#labelling;
+    const next = labelling.following();
+    if (!next) return " No photo is to do any more.";
+    if (!await labelling.open(next.id)) return null;
+    if (done) this.#follow([done]);
+    const doubtful = labelling.document?.doubtful ?? null;
+    return doubtful === null ? "" : ` A diagnosis doubts the truth around column ${doubtful} of this one.`;
   }
 
   /** Take back the last thing that was done: here, or the status of the photo that was left just now. */
   undo() {
     const labelling = this.#labelling;
     const last = this.#trail.at(-1);
-    if (last) return this.#takeBack(last);
+    const photo = this.#shown();
     const says = this.undoes;
-    if (!says) return labelling.say(this.#sheet.shown ? "Nothing was done on this page of the sheet that could be taken back." : "There is nothing to undo.");
-    labelling.send(this.target(), { what: "undo", says: `undoing ${says}` });
+    if (last) this.#takeBack(last);
+    else if (photo && says) labelling.send(photo, { what: "undo", says: `undoing ${says}` });
+    else labelling.say(this.#sheet.shown ? "Nothing was done on this page of the sheet that could be taken back." : "There is nothing to undo.");
   }
 
   /** Do again what was taken back. */
   redo() {
-    if (this.redoes) this.#labelling.send(this.target(), { what: "redo", says: "redoing" });
+    const photo = this.#shown();
+    if (photo && this.redoes) this.#labelling.send(photo, { what: "redo", says: "redoing" });
     else this.#labelling.say("There is nothing to redo.");
   }
 
@@ -124,14 +201,18 @@ export class Actions extends EventTarget {
     const labelling = this.#labelling;
     const photo = this.target();
     if (photo) {
-      dialogs.showTags(labelling, photo, (tag, on) =>
+      showTags(labelling, photo, (tag, on) =>
         labelling.send(photo, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` }));
     }
   }
 
-  /** Take a status back, and go back to its photo. */
+  /**
+   * Take a status back, and go back to its photo.
+   *
+   * @param {Done} done
+   */
   async #takeBack(done) {
-    this.#follow(this.#trail.filter((one) => one !== done));
+    this.#forget([done]);
     const labelling = this.#labelling;
     const kept = await labelling.send(done, { what: "undo", says: `taking back “${done.status}”` });
     if (!kept) return;
@@ -140,26 +221,46 @@ export class Actions extends EventTarget {
     labelling.say(`${done.name} is ${kept.status} again.`);
   }
 
-  /** Something has been kept: what the trail holds of its photo is still the last thing done there, or is dropped. */
+  /**
+   * Something has been kept: what the trail holds of its photo is still the last thing done there, or is dropped.
+   *
+   * @param {Item} item
+   * @param {Document} document
+   */
   #keepUp(item, document) {
-    const revision = document.kept ?? document.revision;
     const here = this.#trail.filter(({ id }) => id === item.photo);
-    if (!isChange(item)) {
-      if (this.#latest?.id === item.photo) here.push(this.#latest);
-      for (const one of here) if (!item.quiet) one.revision = revision;
-    } else if (item.what !== "operations") {
-      for (const one of here) one.revision = revision; // what came after it is taken back
-    } else if (here.length && item.operation.kind !== "status") {
-      this.#follow(this.#trail.filter(({ id }) => id !== item.photo));
+    const { operation, quiet } = item;
+    if (operation && isChange(item)) {
+      if (operation.kind !== "status") this.#forget(here);
+    } else if (!quiet) {
+      for (const one of [...here, ...this.#latestBehind(item)]) one.revision = document.kept ?? document.revision;
     }
   }
 
-  /** Say what else an edit, or taking one back, did. */
+  /**
+   * What was said last, where it is behind a tag on the same photo, which leaves it in place.
+   *
+   * @param {Item} item
+   */
+  #latestBehind({ operation, photo }) {
+    return operation && this.#latest?.id === photo ? [this.#latest] : [];
+  }
+
+  /** @param {Done[]} past - What cannot be taken back any more. */
+  #forget(past) {
+    if (past.length) this.#follow(this.#trail.filter((one) => !past.includes(one)));
+  }
+
+  /**
+   * Say what else an edit, or taking one back, did.
+   *
+   * @param {{before: Status | undefined, now: Document, item: Item}} change
+   */
   #tellStatus({ before, now, item }) {
     const seen = !this.#sheet.shown && this.target()?.id === now.id;
     if (item.what !== "operations") {
       if (seen) this.#labelling.say(`${now.name} is ${now.status} again.`);
-    } else if (before === "accepted" && item.operation.kind !== "status") {
+    } else if (before === "accepted" && item.operation?.kind !== "status") {
       const said = `${now.name} is no longer accepted: it was changed.`;
       if (!seen) return this.#labelling.say(said);
       this.#labelling.say(`${said} Undo takes that back.`, false, () => {
@@ -168,13 +269,9 @@ export class Actions extends EventTarget {
     }
   }
 
+  /** @param {Done[]} trail */
   #follow(trail) {
     this.#trail = trail;
-    this.dispatchEvent(new Event("change"));
+    this.tell("change");
   }
-}
-
-/** Whether an operation is one that Undo knows, or Undo itself. */
-function isChange({ operation }) {
-  return !["tag", "open"].includes(operation?.kind);
 }

@@ -1,10 +1,17 @@
 /** All keys, in one table: what they do, and what the help says about them. */
 
+/** @import { Acts } from "./acts.js" */
+
+/** @typedef {{keys: string[], shown: string, says: string, run: (event: KeyboardEvent) => unknown}} Entry */
+
 /**
- * @param {object} act - Functions by name, see `actions.js` and `line_actions.js`.
- * @returns {{keys: string[], shown: string, says: string, run: (event: KeyboardEvent) => void}[]}
+ * What each key does.
+ *
+ * @param {Acts} act
+ * @returns {Entry[]}
  */
 export function keyTable(act) {
+  /** @type {(shown: string, says: string, run: Entry["run"], ...keys: string[]) => Entry} */
   const one = (shown, says, run, ...keys) => ({ keys, shown, says, run });
   return [
     one("Space", "Accept, and show the next photo", () => act.finish("accepted"), " "),
@@ -45,28 +52,51 @@ export function keyTable(act) {
 /** Keys that work in the sheet, too, on the photo of its card. */
 const EVERYWHERE = new Set([" ", "r", "q", "c", "u", "Ctrl+z", "y", "Ctrl+y", "Ctrl+Z", "t", "p", "/", "?"]);
 
-/** Let the keys of a table work wherever nothing is being typed: `quiet` says where, `sheet` whether it is shown. */
+/**
+ * What a key does where nothing is being typed; undefined where it does nothing.
+ *
+ * @param {Entry[]} table
+ * @param {Pressed} event
+ * @param {boolean} sheet - Whether the sheet is shown, where few keys work.
+ */
+export function entryFor(table, event, sheet) {
+  const find = (/** @type {string} */ key) => table.find(({ keys }) => keys.includes(key));
+  const entry = find(named(event)) ?? (event.altKey ? undefined : find(plain(event)));
+  return sheet && !entry?.keys.some((key) => EVERYWHERE.has(key)) ? undefined : entry;
+}
+
+/**
+ * Let the keys of a table work.
+ *
+ * @param {Entry[]} table
+ * @param {(event: KeyboardEvent) => boolean} quiet - Where they do not, since something is being typed.
+ * @param {() => boolean} sheet - Whether the sheet is shown.
+ */
 export function listen(table, quiet, sheet) {
-  const known = new Map(table.flatMap((entry) => entry.keys.map((key) => [key, entry])));
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || quiet(event)) return;
-    const entry = known.get(named(event)) ?? (event.altKey ? undefined : known.get(plain(event)));
-    if (!entry || (sheet() && !entry.keys.some((key) => EVERYWHERE.has(key)))) return;
+    const entry = entryFor(table, event, sheet());
+    if (!entry) return;
     event.preventDefault();
     entry.run(event);
   });
 }
 
+/** @typedef {Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">} Pressed */
+
+/** @param {Pressed} event */
 function named(event) {
   const control = event.ctrlKey || event.metaKey;
   return `${control ? "Ctrl+" : ""}${event.altKey ? "Alt+" : ""}${event.key}`;
 }
 
+/** @param {Pressed} event */
 function plain(event) {
   const arrow = event.key.startsWith("Arrow");
   return (event.ctrlKey || event.metaKey) && !arrow ? "" : event.key;
 }
 
+/** @param {Pressed} event */
 function pace(event) {
   return event.ctrlKey || event.metaKey ? 100 : event.shiftKey ? 10 : 1;
 }

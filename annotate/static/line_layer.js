@@ -1,169 +1,158 @@
 /** Draws what belongs to the line: the line itself as one path, previews, anchors, the brush. */
 
+import { ANCHOR, BRUSHES, disc, follow, penOf, ratio, softHalo, withNextFrame } from "./drawing.js";
+import { hatched } from "./hatching.js";
+import { magnify } from "./magnifier.js";
 import { paintWaiting, sketched } from "./waiting.js";
 
-const LINE = "#ff2d95";
-const PREVIEW = "#ffd400";
-const HALO = "rgb(20 20 20 / 70%)";
-const ANCHOR = 6; // radius, in screen pixels
+/** @import { Point } from "./geometry.js" */
+/** @import { Item } from "./queue.js" */
+/** @import { Selection, Stroke } from "./selection.js" */
+/** @import { Colours, Document } from "./types.js" */
+/** @import { View } from "./view.js" */
+
 const STAIRS = 6; // screen pixels a column, from which on the line is drawn as stairs
 
-/** The upper canvas of the stage. */
+/** @typedef {{document: Document, colours: Colours}} Shown */
+/** @typedef {{stairs: boolean, visible: Path2D, hidden: Path2D}} Paths - The line's, in pixels of the photo. */
+
+/** The upper canvas of the stage. It draws itself whenever what it shows changes. */
 export class LineLayer {
-  preview = null; // {first, rows}
-  cursor = null; // {column, row}: row is null while it rests on the line
-  stroke = null; // what is being drawn: {kind, points, radius, allow}
-  mark = null; // column and row of the mark
-  finger = null; // where a finger touches, on the screen
-  dragged = null; // column of the anchor that is dragged
-  #waiting = sketched([]);
   #canvas;
   #below;
   #view;
-  #document = null;
-  #line = null;
-  #hidden = null;
-  #stairs = false;
-  #brushed = null;
-  #drawing = false;
+  #selection;
+  /** @type {Shown | null} */
+  #shown = null;
+  #waiting = sketched([]);
+  /** @type {Paths | null} */
+  #paths = null;
+  /** @type {OffscreenCanvas | null} */
+  #forbidden = null;
+  #draw = withNextFrame(() => this.#paint());
 
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {HTMLCanvasElement} below - the canvas of the photo, for the magnifier
-   * @param {import("./view.js").View} view
+   * @param {HTMLCanvasElement} below - The canvas of the photo, for the magnifier.
+   * @param {View} view
+   * @param {Selection} selection
    */
-  constructor(canvas, below, view) {
+  constructor(canvas, below, view, selection) {
     this.#canvas = canvas;
     this.#below = below;
     this.#view = view;
-    view.addEventListener("change", () => this.draw());
+    this.#selection = selection;
+    view.on("change", this.#draw);
+    selection.on("change", this.#draw);
   }
 
-  /** Show another state of the line. */
-  show(document) {
-    this.#document = document;
-    this.#line = null;
-    this.#brushed = brushed(document);
-    this.draw();
+  /**
+   * Show another state of the line.
+   *
+   * @param {Document} document
+   * @param {Colours} colours
+   */
+  show(document, colours) {
+    this.#shown = { document, colours };
+    this.#paths = null;
+    this.#forbidden = hatched(document);
+    this.#draw();
   }
 
-  /** Show what waits for the server on this photo, too. */
+  /**
+   * Show what waits for the server on this photo, too.
+   *
+   * @param {Item[]} items
+   */
   showWaiting(items) {
     this.#waiting = sketched(items);
-    this.draw();
-  }
-
-  /** Column of the anchor under a point of the screen; undefined where there is none. */
-  anchorAt(x, y, reach) {
-    const near = ([column, row]) => {
-      const [ax, ay] = this.#view.toScreen(column + 0.5, row);
-      return Math.hypot(ax - x, ay - y);
-    };
-    const found = this.#document?.anchors.toSorted((a, b) => near(a) - near(b))[0];
-    return found && near(found) <= reach ? found[0] : undefined;
-  }
-
-  /** Draw with the next frame. */
-  draw() {
-    if (this.#drawing) return;
-    this.#drawing = true;
-    requestAnimationFrame(() => {
-      this.#drawing = false;
-      this.#paint();
-    });
+    this.#draw();
   }
 
   #paint() {
-    const pen = this.#canvas.getContext("2d");
-    const ratio = devicePixelRatio || 1;
+    const pen = penOf(this.#canvas);
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.clearRect(0, 0, this.#canvas.width, this.#canvas.height);
-    if (!this.#document) return;
+    if (!this.#shown) return;
+    const { document, colours } = this.#shown;
+    const { finger } = this.#selection.now;
     const { scale, left, top } = this.#view;
-    const photo = () => pen.setTransform(ratio * scale, 0, 0, ratio * scale, ratio * left, ratio * top);
-    const screen = () => pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const [across, down] = [ratio() * scale, ratio()];
     pen.lineJoin = pen.lineCap = "round";
-    const stairs = scale >= STAIRS;
-    if (!this.#line || stairs !== this.#stairs) this.#build(stairs);
-    photo();
-    if (this.#brushed) pen.drawImage(this.#brushed, 0, 0, this.#document.width, this.#document.height);
-    if (this.#document.rows) {
-      this.#trace(pen, this.#hidden, LINE, 2, scale, [6, 5]);
-      this.#trace(pen, this.#line, LINE, 2, scale);
-    }
-    if (this.preview?.rows.length) this.#trace(pen, this.#path(this.preview.first, this.preview.rows, stairs), PREVIEW, 2, scale);
-    if (this.stroke) this.#paintStroke(pen, scale);
-    screen();
-    this.#paintSpans(pen);
-    this.#paintCursor(pen);
-    for (const [column, row] of this.#document.anchors) {
-      if (column !== this.dragged) this.#disc(pen, column, row, ANCHOR, "#fff");
-    }
-    paintWaiting(pen, this.#waiting, this.#view, (column) => this.#document.anchors.find(([one]) => one === column)?.[1]);
-    if (this.finger) this.#magnify(pen, ratio);
+    pen.setTransform(across, 0, 0, across, down * left, down * top);
+    this.#paintLines(pen, this.#shown);
+    pen.setTransform(down, 0, 0, down, 0, 0);
+    this.#paintSpans(pen, this.#shown);
+    this.#paintCursor(pen, this.#shown);
+    this.#paintAnchors(pen, this.#shown);
+    paintWaiting(pen, this.#waiting, this.#view, colours, document.anchors);
+    if (finger) magnify(pen, finger, [this.#below, this.#canvas], colours.anchor);
   }
 
-  #build(stairs) {
-    const { rows, hidden } = this.#document;
-    this.#stairs = stairs;
-    this.#line = new Path2D();
-    this.#hidden = new Path2D();
-    if (!rows) return;
-    let from = 0;
-    for (const [first, last] of hidden) {
-      if (first > from) this.#line.addPath(this.#path(from, rows.slice(from, first), stairs));
-      this.#hidden.addPath(this.#path(first, rows.slice(first, last + 1), stairs));
-      from = last + 1;
-    }
-    if (from < rows.length) this.#line.addPath(this.#path(from, rows.slice(from), stairs));
+  /**
+   * In pixels of the photo: what is forbidden, the line, a preview of another one, and a stroke.
+   *
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Shown} shown
+   */
+  #paintLines(pen, { document, colours }) {
+    const { preview, stroke } = this.#selection.now;
+    const stairs = this.#view.scale >= STAIRS;
+    if (this.#forbidden) pen.drawImage(this.#forbidden, 0, 0, document.width, document.height);
+    if (this.#paths?.stairs !== stairs) this.#paths = linePaths(document, stairs);
+    this.#trace(pen, this.#paths.hidden, colours.line, [6, 5]);
+    this.#trace(pen, this.#paths.visible, colours.line);
+    if (preview?.rows.length) this.#trace(pen, linePath(preview.first, preview.rows, stairs), colours.preview);
+    if (stroke) this.#paintStroke(pen, stroke, colours);
   }
 
-  #path(first, rows, stairs) {
-    const path = new Path2D();
-    rows.forEach((row, at) => {
-      const x = first + at;
-      if (stairs) {
-        path[at ? "lineTo" : "moveTo"](x, row);
-        path.lineTo(x + 1, row);
-      } else {
-        path[at ? "lineTo" : "moveTo"](x + 0.5, row);
-      }
-    });
-    return path;
-  }
-
-  #trace(pen, path, colour, width, scale, dashes = []) {
+  /**
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Path2D} path
+   * @param {string} colour
+   * @param {number[]} [dashes] - In screen pixels.
+   */
+  #trace(pen, path, colour, dashes = []) {
+    const { scale } = this.#view;
     pen.setLineDash(dashes.map((one) => one / scale));
-    pen.strokeStyle = HALO;
-    pen.lineWidth = (width + 2.5) / scale;
-    pen.stroke(path);
-    pen.strokeStyle = colour;
-    pen.lineWidth = width / scale;
-    pen.stroke(path);
+    for (const [style, width] of /** @type {[string, number][]} */ ([[this.#halo, 4.5], [colour, 2]])) {
+      Object.assign(pen, { strokeStyle: style, lineWidth: width / scale });
+      pen.stroke(path);
+    }
     pen.setLineDash([]);
   }
 
-  #paintStroke(pen, scale) {
-    const { kind, points, radius, allow } = this.stroke;
-    const path = new Path2D();
-    points.forEach(([column, row], at) => path[at ? "lineTo" : "moveTo"](column + 0.5, row + (kind === "forbid" ? 0.5 : 0)));
-    if (kind === "forbid") {
-      if (points.length === 1) path.lineTo(points[0][0] + 0.51, points[0][1] + 0.5);
-      pen.strokeStyle = allow ? "rgb(255 255 255 / 35%)" : "rgb(0 0 0 / 55%)";
-      pen.lineWidth = 2 * radius + 1;
-      pen.stroke(path);
-    } else {
-      this.#trace(pen, path, PREVIEW, 2, scale);
-    }
+  get #halo() {
+    return this.#shown ? softHalo(this.#shown.colours) : "";
   }
 
-  #paintSpans(pen) {
-    for (const { first, last, kind } of this.#document.spans) {
+  /**
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Stroke} stroke
+   * @param {Colours} colours
+   */
+  #paintStroke(pen, { kind, points, radius, allow }, colours) {
+    const path = new Path2D();
+    const down = kind === "forbid" ? 0.5 : 0;
+    follow(path, points.map(([column, row]) => [column + 0.5, row + down]));
+    if (kind !== "forbid") return this.#trace(pen, path, colours.preview);
+    if (points.length === 1) path.lineTo(points[0][0] + 0.51, points[0][1] + down); // a dot
+    pen.strokeStyle = allow ? BRUSHES.allow : BRUSHES.forbid;
+    pen.lineWidth = 2 * radius + 1;
+    pen.stroke(path);
+  }
+
+  /**
+   * Both ends of each span: squares of straight ones, ellipses of drawn ones.
+   *
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Shown} shown
+   */
+  #paintSpans(pen, { document, colours }) {
+    for (const { first, last, kind } of document.spans) {
       for (const column of [first, last]) {
-        const [x, y] = this.#view.toScreen(column + 0.5, this.#document.rows[column]);
-        pen.fillStyle = "#fff";
-        pen.strokeStyle = "#141414";
-        pen.lineWidth = 1.5;
+        const [x, y] = this.#view.toScreen(column + 0.5, document.rows?.[column] ?? 0);
+        Object.assign(pen, { fillStyle: colours.anchor, strokeStyle: colours.halo, lineWidth: 1.5 });
         pen.beginPath();
         if (kind === "straight") pen.rect(x - 4, y - 4, 8, 8);
         else pen.ellipse(x, y, 3, 5, 0, 0, 2 * Math.PI);
@@ -173,96 +162,90 @@ export class LineLayer {
     }
   }
 
-  #paintCursor(pen) {
-    for (const [place, dashes] of [[this.mark, [3, 4]], [this.cursor, []]]) {
-      if (!place) continue;
-      const [x] = this.#view.toScreen(place.column + 0.5, 0);
-      const bottom = this.#canvas.clientHeight;
-      for (const [colour, width] of [["rgb(20 20 20 / 60%)", 3], ["#fff", 1]]) {
-        pen.setLineDash(dashes);
-        pen.strokeStyle = colour;
-        pen.lineWidth = width;
-        pen.beginPath();
-        pen.moveTo(x, 0);
-        pen.lineTo(x, bottom);
-        pen.stroke();
-      }
-      pen.setLineDash([]);
-      const row = place.row ?? this.#document.rows?.[place.column];
-      if (row !== undefined) this.#disc(pen, place.column, row, 4, place.row === null ? "#fff" : PREVIEW);
+  /**
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Shown} shown
+   */
+  #paintCursor(pen, shown) {
+    const { mark, cursor } = this.#selection.now;
+    if (mark) this.#paintColumn(pen, mark, [3, 4], shown);
+    if (cursor) this.#paintColumn(pen, cursor, [], shown);
+  }
+
+  /**
+   * @param {CanvasRenderingContext2D} pen
+   * @param {{column: number, row: number | null}} place
+   * @param {number[]} dashes
+   * @param {Shown} shown
+   */
+  #paintColumn(pen, { column, row }, dashes, { document, colours }) {
+    const [x] = this.#view.toScreen(column + 0.5, 0);
+    const rails = /** @type {[string, number][]} */ ([[softHalo(colours), 3], [colours.anchor, 1]]);
+    pen.setLineDash(dashes);
+    for (const [style, width] of rails) {
+      Object.assign(pen, { strokeStyle: style, lineWidth: width });
+      pen.beginPath();
+      follow(pen, [[x, 0], [x, this.#canvas.clientHeight]]);
+      pen.stroke();
+    }
+    pen.setLineDash([]);
+    const at = row ?? document.rows?.[column];
+    if (at !== undefined) this.#disc(pen, [column, at], 4, row === null ? colours.anchor : colours.preview, colours);
+  }
+
+  /**
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Shown} shown
+   */
+  #paintAnchors(pen, { document, colours }) {
+    const { dragged } = this.#selection.now;
+    for (const anchor of document.anchors) {
+      if (anchor[0] !== dragged) this.#disc(pen, anchor, ANCHOR, colours.anchor, colours);
     }
   }
 
-  #disc(pen, column, row, radius, colour) {
-    const [x, y] = this.#view.toScreen(column + 0.5, row);
-    pen.beginPath();
-    pen.arc(x, y, radius, 0, 2 * Math.PI);
-    pen.fillStyle = colour;
-    pen.fill();
-    pen.lineWidth = 2;
-    pen.strokeStyle = "#141414";
-    pen.stroke();
-  }
-
-  /** What is under a finger, three times as large and beside it. */
-  #magnify(pen, ratio) {
-    const [x, y] = this.finger;
-    const radius = 64;
-    const at = [x < 2 * radius + 20 ? x + radius + 30 : x - radius - 30, Math.max(y - radius - 20, radius + 4)];
-    pen.save();
-    pen.beginPath();
-    pen.arc(...at, radius, 0, 2 * Math.PI);
-    pen.clip();
-    const part = [(x - radius / 3) * ratio, (y - radius / 3) * ratio, radius * 2 / 3 * ratio, radius * 2 / 3 * ratio];
-    const place = [at[0] - radius, at[1] - radius, 2 * radius, 2 * radius];
-    pen.drawImage(this.#below, ...part, ...place);
-    pen.drawImage(this.#canvas, ...part, ...place);
-    pen.restore();
-    pen.strokeStyle = "#fff";
-    pen.lineWidth = 2;
-    pen.beginPath();
-    pen.arc(...at, radius, 0, 2 * Math.PI);
-    pen.moveTo(at[0] - 8, at[1]);
-    pen.lineTo(at[0] + 8, at[1]);
-    pen.stroke();
+  /**
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Point} pixel
+   * @param {number} radius
+   * @param {string} fill
+   * @param {Colours} colours
+   */
+  #disc(pen, [column, row], radius, fill, { halo }) {
+    disc(pen, this.#view.toScreen(column + 0.5, row), radius, { fill, rim: halo, width: 2 });
   }
 }
 
-/** What the brush forbids, hatched; null where it has not been used. */
-function brushed(document) {
-  if (!document.forbidden.length) return null;
-  const scale = Math.min(1, 1600 / document.width);
-  const canvas = new OffscreenCanvas(Math.ceil(document.width * scale), Math.ceil(document.height * scale));
-  const pen = canvas.getContext("2d");
-  pen.setTransform(scale, 0, 0, scale, 0, 0);
-  pen.lineCap = pen.lineJoin = "round";
-  for (const { points, radius, allow } of document.forbidden) {
-    pen.globalCompositeOperation = allow ? "destination-out" : "source-over";
-    pen.lineWidth = 2 * radius + 1;
-    pen.beginPath();
-    points.forEach(([column, row], at) => pen[at ? "lineTo" : "moveTo"](column + 0.5, row + 0.5));
-    if (points.length === 1) pen.lineTo(points[0][0] + 0.51, points[0][1] + 0.5);
-    pen.stroke();
+/**
+ * The visible and the hidden parts of the line.
+ *
+ * @param {Document} document
+ * @param {boolean} stairs
+ * @returns {Paths}
+ */
+function linePaths({ rows, hidden }, stairs) {
+  const paths = { stairs, visible: new Path2D(), hidden: new Path2D() };
+  if (!rows) return paths;
+  let from = 0;
+  for (const [first, last] of hidden) {
+    if (first > from) paths.visible.addPath(linePath(from, rows.slice(from, first), stairs));
+    paths.hidden.addPath(linePath(first, rows.slice(first, last + 1), stairs));
+    from = last + 1;
   }
-  pen.globalCompositeOperation = "source-in";
-  pen.setTransform(1, 0, 0, 1, 0, 0);
-  pen.fillStyle = hatching(pen);
-  pen.fillRect(0, 0, canvas.width, canvas.height);
-  return canvas;
+  if (from < rows.length) paths.visible.addPath(linePath(from, rows.slice(from), stairs));
+  return paths;
 }
 
-function hatching(pen) {
-  const cell = new OffscreenCanvas(8, 8);
-  const line = cell.getContext("2d");
-  line.fillStyle = "rgb(0 0 0 / 40%)";
-  line.fillRect(0, 0, 8, 8);
-  line.strokeStyle = "rgb(255 255 255 / 75%)";
-  line.lineWidth = 1.5;
-  line.beginPath();
-  for (const shift of [-8, 0, 8]) {
-    line.moveTo(shift, 8);
-    line.lineTo(shift + 8, 0);
-  }
-  line.stroke();
-  return pen.createPattern(cell, "repeat");
+/**
+ * @param {number} first
+ * @param {number[]} rows
+ * @param {boolean} stairs
+ */
+function linePath(first, rows, stairs) {
+  const path = new Path2D();
+  follow(path, rows.flatMap((row, at) => {
+    const x = first + at;
+    return /** @type {Point[]} */ (stairs ? [[x, row], [x + 1, row]] : [[x + 0.5, row]]);
+  }));
+  return path;
 }

@@ -1,93 +1,101 @@
 /** What the page says: messages, whether everything is saved, and what could not be kept. */
 
-import { changesLine } from "./waiting.js";
+import { box, button, dialog, made } from "./dom.js";
+import { changesLine } from "./operations.js";
+import { trouble } from "./words.js";
+
+/** @import { Labelling, Undo } from "./labelling.js" */
+/** @import { Lost } from "./queue.js" */
 
 const SLOW = 400; // milliseconds: what is saved within a blink is not worth a word
-
-/** A number of things. */
-export function counted(number, thing) {
-  return `${number} ${thing}${number === 1 ? "" : "s"}`;
-}
-
-/** Why edits wait, and what will become of them, and of the line where they change it. */
-export function trouble(reason, waiting, line = false) {
-  if (!reason) return "";
-  if (!waiting) return reason;
-  const sent = waiting === 1 ? "waits and is sent as soon as it can be" : "wait and are sent as soon as they can be";
-  return `${reason} ${counted(waiting, "edit")} ${sent}${line ? "; the line follows then" : ""}.`;
-}
 
 /** The message line and its Undo, the word *saved*, and the list of what is not kept. */
 export class Messages {
   #labelling;
-  #parts; // {said, undo, trouble, saving, lost, list, forget, dialog}
+  #said = box("said");
+  #takeBack = button("said-undo");
+  #trouble = box("trouble");
+  #saving = box("saving");
+  #lost = button("lost");
+  /** @type {Undo | null} */
   #undo = null;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
   #slow = false;
 
-  constructor(labelling, parts) {
+  /**
+   * @param {Labelling} labelling
+   * @param {() => void} focus - Gives the photo the keys.
+   */
+  constructor(labelling, focus) {
     this.#labelling = labelling;
-    this.#parts = parts;
-    labelling.addEventListener("said", ({ detail }) => this.#say(detail));
-    labelling.addEventListener("loading", () => labelling.loading && this.#say({ text: "" })); // what was said was of another photo
-    labelling.queue.addEventListener("change", () => this.#show());
-    parts.undo.addEventListener("click", () => {
+    labelling.on("said", ({ text, bad, undo }) => this.#say(text, bad, undo, focus));
+    labelling.on("loading", () => labelling.loading && this.#say("", false, null, focus)); // what was said was of another photo
+    labelling.queue.on("change", () => this.#show());
+    this.#takeBack.addEventListener("click", () => {
       const undo = this.#undo;
-      this.#say({ text: "" });
-      undo();
+      this.#say("", false, null, focus);
+      undo?.();
     });
-    parts.lost.addEventListener("click", () => parts.dialog.showModal());
-    parts.forget.addEventListener("click", () => {
+    this.#lost.addEventListener("click", () => dialog("lost-dialog").showModal());
+    button("lost-forget").addEventListener("click", () => {
       labelling.queue.forget();
-      parts.dialog.close();
+      dialog("lost-dialog").close();
     });
   }
 
-  #say({ text, bad = false, undo = null }) {
-    const { said, undo: button } = this.#parts;
-    const focused = document.activeElement === button;
-    said.textContent = said.title = text;
-    said.classList.toggle("bad", bad);
-    button.hidden = !undo;
+  /**
+   * @param {string} text
+   * @param {boolean} bad
+   * @param {Undo | null} undo
+   * @param {() => void} focus
+   */
+  #say(text, bad, undo, focus) {
+    const focused = document.activeElement === this.#takeBack;
+    this.#said.textContent = this.#said.title = text;
+    this.#said.classList.toggle("bad", bad);
+    this.#takeBack.hidden = !undo;
     this.#undo = undo;
-    if (focused && !undo) document.getElementById("lines").focus({ preventScroll: true }); // not lost with the button
+    if (focused && !undo) focus(); // not lost with the button
   }
 
   #show() {
     const { document: shown, queue } = this.#labelling;
-    const { waiting, reason, lost } = queue;
-    const { saving, trouble: line } = this.#parts;
-    saving.dataset.state = waiting ? "unsaved" : "saved";
-    if (!waiting) {
+    const { waiting, reason } = queue;
+    this.#measure(waiting > 0);
+    this.#saving.dataset.state = waiting ? "unsaved" : "saved";
+    if (!waiting) this.#saving.textContent = "saved";
+    else if (this.#slow || reason) this.#saving.textContent = `${waiting} not saved`;
+    const words = trouble(waiting ? reason : "", waiting, changesLine(shown ? queue.of(shown.id) : []));
+    if (this.#trouble.textContent !== words) this.#trouble.textContent = words;
+    this.#trouble.hidden = !words;
+    this.#list(queue.lost);
+  }
+
+  /**
+   * Notice when something has waited for a while.
+   *
+   * @param {boolean} waits
+   */
+  #measure(waits) {
+    if (!waits) {
       clearTimeout(this.#timer);
-      [this.#timer, this.#slow] = [undefined, false];
+      this.#timer = undefined;
+      this.#slow = false;
     } else if (!this.#slow) {
       this.#timer ??= setTimeout(() => {
         this.#slow = true;
         this.#show();
       }, SLOW);
     }
-    if (!waiting) saving.textContent = "saved";
-    else if (this.#slow || reason) saving.textContent = `${waiting} not saved`;
-    const items = shown ? queue.of(shown.id) : [];
-    const words = trouble(waiting ? reason : "", waiting, changesLine(items));
-    if (line.textContent !== words) line.textContent = words;
-    line.hidden = !words;
-    this.#list(lost);
   }
 
+  /** @param {Lost[]} lost */
   #list(lost) {
-    const { lost: button, list } = this.#parts;
-    button.hidden = !lost.length;
-    button.textContent = `${lost.length} not kept`;
-    list.replaceChildren(...lost.map(({ name, says, reason, at }) => {
-      const item = document.createElement("li");
-      const what = document.createElement("b");
-      what.textContent = `${name}: ${says}`;
-      const why = document.createElement("span");
-      why.textContent = `${new Date(at).toLocaleTimeString()}: ${reason}${reason.endsWith(".") ? "" : "."}`;
-      item.append(what, why);
-      return item;
-    }));
+    this.#lost.hidden = !lost.length;
+    this.#lost.textContent = `${lost.length} not kept`;
+    box("lost-list").replaceChildren(...lost.map(({ name, says, reason, at }) => made("li", {},
+      made("b", { textContent: `${name}: ${says}` }),
+      made("span", { textContent: `${new Date(at).toLocaleTimeString()}: ${reason}${reason.endsWith(".") ? "" : "."}` }))));
   }
 }

@@ -1,83 +1,101 @@
 /** Draws the photo: its view, exact tiles when zoomed in, adjustments, and a stage laid over it. */
 
-import { picture } from "./api.js";
+import { NEUTRAL, adjusted, reduced } from "./adjusting.js";
+import { penOf, ratio, withNextFrame } from "./drawing.js";
+import { Tiles } from "./tiles.js";
 
-const TILE = 512;
-const KEPT = 64; // tiles
+/** @import { How } from "./adjusting.js" */
+/** @import { Picture } from "./tiles.js" */
+/** @import { Document } from "./types.js" */
+/** @import { View } from "./view.js" */
 
-/** The lower canvas of the stage. */
+/**
+ * @typedef {object} Shown
+ * @property {number} width
+ * @property {number} height
+ * @property {ImageBitmap} bitmap - The view of the whole photo, which may be smaller.
+ * @property {Picture} soft
+ * @property {Picture} adjusted
+ * @property {Tiles} tiles
+ * @property {number} side - Of a tile, in pixels.
+ */
+
+/** The lower canvas of the stage. It draws itself whenever what it shows changes. */
 export class PhotoLayer {
   #canvas;
   #view;
-  #shown = null; // {id, width, height, bitmap}
-  #adjusted = null;
-  #blurred = null;
-  #tiles = new Map();
+  /** @type {Shown | null} */
+  #shown = null;
+  /** @type {ImageBitmap | null} */
   #overlay = null;
-  #opacity = 0.7;
-  #how = { contrast: 1, gamma: 1, local: 0 };
-  #drawing = false;
+  #opacity = 1;
+  /** @type {How} */
+  #how = NEUTRAL;
+  #draw = withNextFrame(() => this.#paint());
 
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {import("./view.js").View} view
+   * @param {View} view
    */
   constructor(canvas, view) {
     this.#canvas = canvas;
     this.#view = view;
-    view.addEventListener("change", () => this.draw());
+    view.on("change", this.#draw);
   }
 
-  /** Show another photo. */
-  show(document, bitmap) {
-    this.#shown = { id: document.id, width: document.width, height: document.height, bitmap };
-    this.#tiles.clear();
+  /**
+   * Show another photo.
+   *
+   * @param {Document} document
+   * @param {ImageBitmap} bitmap
+   * @param {number} side - Of the server's tiles.
+   */
+  show({ id, width, height }, bitmap, side) {
+    const soft = reduced(bitmap);
+    const whole = adjusted(bitmap, soft, WHOLE, this.#how);
+    this.#shown = { width, height, bitmap, soft, adjusted: whole, side, tiles: new Tiles(id, this.#draw) };
     this.#overlay = null;
-    this.#blurred = reduced(bitmap, 48);
-    this.#adjusted = this.#adjust(bitmap, 0, 0, 1, 1);
-    this.draw();
+    this.#draw();
   }
 
-  /** Change contrast, gamma or local contrast. */
+  /**
+   * Change contrast, gamma or local contrast.
+   *
+   * @param {How} how
+   */
   adjust(how) {
     this.#how = how;
     if (!this.#shown) return;
-    for (const tile of this.#tiles.values()) tile.adjusted = null;
-    this.#adjusted = this.#adjust(this.#shown.bitmap, 0, 0, 1, 1);
-    this.draw();
+    this.#shown.tiles.readjust();
+    this.#shown.adjusted = adjusted(this.#shown.bitmap, this.#shown.soft, WHOLE, how);
+    this.#draw();
   }
 
-  /** Lay a picture over the photo, or nothing. */
+  /**
+   * Lay a picture over the photo, or nothing.
+   *
+   * @param {ImageBitmap | null} bitmap
+   * @param {number} opacity
+   */
   lay(bitmap, opacity) {
     this.#overlay = bitmap;
     this.#opacity = opacity;
-    this.draw();
-  }
-
-  /** Draw with the next frame. */
-  draw() {
-    if (this.#drawing) return;
-    this.#drawing = true;
-    requestAnimationFrame(() => {
-      this.#drawing = false;
-      this.#paint();
-    });
+    this.#draw();
   }
 
   #paint() {
-    const ratio = devicePixelRatio || 1;
-    const pen = this.#canvas.getContext("2d", { alpha: false });
+    const pen = penOf(this.#canvas, { alpha: false });
     pen.setTransform(1, 0, 0, 1, 0, 0);
-    pen.fillStyle = getComputedStyle(this.#canvas.parentElement).backgroundColor;
+    pen.fillStyle = getComputedStyle(/** @type {Element} */ (this.#canvas.parentElement)).backgroundColor;
     pen.fillRect(0, 0, this.#canvas.width, this.#canvas.height);
     if (!this.#shown) return;
     const { width, height, bitmap } = this.#shown;
-    const { scale, left, top } = this.#view;
-    pen.setTransform(ratio * scale, 0, 0, ratio * scale, ratio * left, ratio * top);
-    pen.imageSmoothingEnabled = scale * ratio < 2;
+    const scale = ratio() * this.#view.scale;
+    pen.setTransform(scale, 0, 0, scale, ratio() * this.#view.left, ratio() * this.#view.top);
+    pen.imageSmoothingEnabled = scale < 2;
     pen.imageSmoothingQuality = "high";
-    pen.drawImage(this.#adjusted, 0, 0, width, height);
-    if (bitmap.width < width && scale * ratio > 1.1 * bitmap.width / width) this.#paintTiles(pen);
+    pen.drawImage(this.#shown.adjusted, 0, 0, width, height);
+    if (bitmap.width < width && scale > 1.1 * bitmap.width / width) this.#paintTiles(pen, this.#shown);
     if (this.#overlay) {
       pen.globalAlpha = this.#opacity;
       pen.drawImage(this.#overlay, 0, 0, width, height);
@@ -85,74 +103,25 @@ export class PhotoLayer {
     }
   }
 
-  #paintTiles(pen) {
-    const { id, width, height } = this.#shown;
+  /**
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Shown} shown
+   */
+  #paintTiles(pen, { width, height, soft, tiles, side }) {
     const [first, last] = this.#view.columns();
     const [, top] = this.#view.toPixel(0, 0);
     const [, bottom] = this.#view.toPixel(0, this.#canvas.clientHeight);
-    for (let down = Math.floor(top / TILE); down <= bottom / TILE; down++) {
-      for (let across = Math.floor(first / TILE); across <= last / TILE; across++) {
-        const tile = this.#tile(id, across, down);
+    for (let down = Math.floor(top / side); down <= bottom / side; down++) {
+      for (let across = Math.floor(first / side); across <= last / side; across++) {
+        const tile = tiles.at(across, down);
         if (!tile.bitmap) continue;
-        const [x, y] = [across * TILE, down * TILE];
-        tile.adjusted ??= this.#adjust(
-          tile.bitmap, x / width, y / height, tile.bitmap.width / width, tile.bitmap.height / height);
+        const [x, y] = [across * side, down * side];
+        const part = { x: x / width, y: y / height, width: tile.bitmap.width / width, height: tile.bitmap.height / height };
+        tile.adjusted ??= adjusted(tile.bitmap, soft, part, this.#how);
         pen.drawImage(tile.adjusted, x, y);
       }
     }
   }
-
-  #tile(id, across, down) {
-    const key = `${across}/${down}`;
-    let tile = this.#tiles.get(key);
-    if (tile) {
-      this.#tiles.delete(key); // the last ones asked for are kept
-      this.#tiles.set(key, tile);
-      return tile;
-    }
-    tile = { bitmap: null, adjusted: null };
-    this.#tiles.set(key, tile);
-    if (this.#tiles.size > KEPT) this.#tiles.delete(this.#tiles.keys().next().value);
-    picture(`api/photos/${id}/tiles/${key}`).then((bitmap) => {
-      tile.bitmap = bitmap;
-      if (this.#shown.id === id) this.draw();
-    }, () => this.#tiles.delete(key));
-    return tile;
-  }
-
-  /** A picture with the adjustments applied; the last four say which part of the photo it is. */
-  #adjust(bitmap, x, y, width, height) {
-    const { contrast, gamma, local } = this.#how;
-    if (contrast === 1 && gamma === 1 && local === 0) return bitmap;
-    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-    const pen = canvas.getContext("2d", { willReadFrequently: true });
-    let around = null;
-    if (local > 0) {
-      const soft = this.#blurred;
-      pen.imageSmoothingQuality = "high";
-      pen.drawImage(soft, x * soft.width, y * soft.height, width * soft.width, height * soft.height, 0, 0, canvas.width, canvas.height);
-      around = pen.getImageData(0, 0, canvas.width, canvas.height).data;
-    }
-    pen.drawImage(bitmap, 0, 0);
-    const image = pen.getImageData(0, 0, canvas.width, canvas.height);
-    const curve = Uint8ClampedArray.from({ length: 256 }, (_, level) =>
-      255 * Math.pow(Math.min(Math.max((level / 255 - 0.5) * contrast + 0.5, 0), 1), 1 / gamma));
-    const data = image.data;
-    for (let at = 0; at < data.length; at++) {
-      if (at % 4 === 3) continue;
-      const level = around ? data[at] + local * (data[at] - around[at]) : data[at];
-      data[at] = curve[level < 0 ? 0 : level > 255 ? 255 : level | 0];
-    }
-    pen.putImageData(image, 0, 0);
-    return canvas;
-  }
 }
 
-/** A small copy of a picture: what surrounds each of its pixels. */
-function reduced(bitmap, width) {
-  const canvas = new OffscreenCanvas(width, Math.max(Math.round(width * bitmap.height / bitmap.width), 2));
-  const pen = canvas.getContext("2d");
-  pen.imageSmoothingQuality = "high";
-  pen.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
-  return canvas;
-}
+const WHOLE = { x: 0, y: 0, width: 1, height: 1 };

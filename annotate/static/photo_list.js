@@ -1,48 +1,62 @@
 /** The list of photos: only what is in sight has elements and pictures. */
 
-import { blob } from "./api.js";
+import { around, box, find, input, made, offer, select } from "./dom.js";
+import { Thumbnails } from "./thumbnails.js";
+import { spoken } from "./words.js";
+
+/** @import { Labelling } from "./labelling.js" */
+/** @import { ShownPhoto } from "./types.js" */
 
 const HEIGHT = 60; // of an item, in CSS pixels
-const KEPT = 300; // thumbnails
 
 /** List, search, filter and progress. */
 export class PhotoList {
   #labelling;
-  #parts;
+  #list = box("list");
+  #inner = made("div", { className: "inner" });
+  #thumbnails = new Thumbnails();
+  /** @type {ShownPhoto[]} */
   #found = [];
-  #inner = document.createElement("div");
-  #thumbnails = new Map();
 
-  /** `parts`: {list, search, filter, progress, words}; `choose` is called with a photo's id, and whether a click chose it. */
-  constructor(labelling, parts, choose) {
+  /**
+   * @param {Labelling} labelling
+   * @param {(id: number, clicked: boolean) => void} choose - Called with a photo, and whether a click chose it.
+   */
+  constructor(labelling, choose) {
     this.#labelling = labelling;
-    this.#parts = parts;
-    this.#inner.className = "inner";
     this.#inner.setAttribute("role", "presentation");
-    parts.list.append(this.#inner);
-    parts.list.addEventListener("scroll", () => this.#draw());
-    new ResizeObserver(() => this.#draw()).observe(parts.list);
-    parts.list.addEventListener("click", (event) => {
-      const item = event.target.closest(".item");
+    this.#list.append(this.#inner);
+    this.#list.addEventListener("scroll", () => this.#draw());
+    new ResizeObserver(() => this.#draw()).observe(this.#list);
+    this.#list.addEventListener("click", (event) => {
+      const item = around(event, ".item");
       if (item) choose(Number(item.dataset.photo), true);
     });
-    parts.list.addEventListener("keydown", (event) => {
+    this.#list.addEventListener("keydown", (event) => {
       const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
       if (!step) return;
       event.preventDefault();
-      const at = this.#found.findIndex((photo) => photo.id === labelling.document?.id);
-      const next = this.#found[Math.min(Math.max(at + step, 0), this.#found.length - 1)];
+      const next = this.#found[Math.min(Math.max(this.#place + step, 0), this.#found.length - 1)];
       if (next) choose(next.id, false);
     });
-    parts.search.addEventListener("input", () => this.#search());
-    parts.filter.addEventListener("change", () => this.#search());
-    labelling.addEventListener("list", () => this.#search());
-    labelling.addEventListener("document", (event) => this.#draw(event.detail.fresh));
+    input("search").addEventListener("input", () => this.#search());
+    select("filter").addEventListener("change", () => this.#search());
+    labelling.on("legend", ({ statuses }) => offer(select("filter"), statuses));
+    labelling.on("list", () => this.#search());
+    labelling.on("document", ({ fresh }) => {
+      if (fresh) this.#reveal();
+      this.#draw();
+    });
+  }
+
+  /** Place of the current photo among those that were found; -1 where it is none of them. */
+  get #place() {
+    return this.#found.findIndex((photo) => photo.id === this.#labelling.document?.id);
   }
 
   #search() {
-    const words = this.#parts.search.value.trim().toLowerCase();
-    const status = this.#parts.filter.value;
+    const words = input("search").value.trim().toLowerCase();
+    const status = select("filter").value;
     this.#found = this.#labelling.photos.filter((photo) =>
       (!status || photo.status === status) && photo.name.toLowerCase().includes(words));
     this.#inner.style.height = `${this.#found.length * HEIGHT}px`;
@@ -51,94 +65,86 @@ export class PhotoList {
   }
 
   #showProgress() {
-    const { done, total, seconds_a_photo: each, seconds_left: left } = this.#labelling.progress;
-    Object.assign(this.#parts.progress, { value: done, max: Math.max(total, 1) });
+    const { progress } = this.#labelling;
+    if (!progress) return;
+    const { done, total, seconds_a_photo: each, seconds_left: left } = progress;
+    Object.assign(find("progress", HTMLProgressElement), { value: done, max: Math.max(total, 1) });
     const share = `${done} of ${total} done (${Math.floor(100 * done / Math.max(total, 1))} %)`;
-    this.#parts.words.textContent = each === null ? share : `${share}, ${each.toFixed(0)} s a photo, ${spoken(left)} left`;
+    const time = each === null || left === null ? "" : `, ${each.toFixed(0)} s a photo, ${spoken(left)} left`;
+    box("progress-words").textContent = `${share}${time}`;
   }
 
-  #draw(reveal = false) {
-    const { list } = this.#parts;
-    const current = this.#labelling.document?.id;
-    if (reveal) {
-      const at = this.#found.findIndex((photo) => photo.id === current) * HEIGHT;
-      if (at >= 0 && (at < list.scrollTop || at + HEIGHT > list.scrollTop + list.clientHeight)) {
-        list.scrollTop = at - list.clientHeight / 2 + HEIGHT / 2;
-      }
+  /** Scroll to the current photo, unless it is in sight. */
+  #reveal() {
+    const { scrollTop, clientHeight } = this.#list;
+    const at = this.#place * HEIGHT;
+    if (at >= 0 && (at < scrollTop || at + HEIGHT > scrollTop + clientHeight)) {
+      this.#list.scrollTop = at - clientHeight / 2 + HEIGHT / 2;
     }
-    const first = Math.max(Math.floor(list.scrollTop / HEIGHT) - 2, 0);
-    const shown = this.#found.slice(first, first + Math.ceil(list.clientHeight / HEIGHT) + 4);
-    this.#inner.replaceChildren(...shown.map((photo, at) => this.#item(photo, first + at, photo.id === current)));
+  }
+
+  #draw() {
+    const { scrollTop, clientHeight } = this.#list;
+    const first = Math.max(Math.floor(scrollTop / HEIGHT) - 2, 0);
+    const shown = this.#found.slice(first, first + Math.ceil(clientHeight / HEIGHT) + 4);
+    this.#inner.replaceChildren(...shown.map((photo, at) => this.#item(photo, first + at)));
     if (!this.#found.length) this.#inner.append(nothing(this.#labelling.photos.length ? "No photo matches." : ""));
     const selected = this.#inner.querySelector("[aria-selected=true]");
-    if (selected) list.setAttribute("aria-activedescendant", selected.id);
-    else list.removeAttribute("aria-activedescendant");
+    if (selected) this.#list.setAttribute("aria-activedescendant", selected.id);
+    else this.#list.removeAttribute("aria-activedescendant");
   }
 
-  #item(photo, at, selected) {
-    const item = document.createElement("div");
-    item.className = "item";
-    item.id = `photo-${photo.id}`;
-    item.dataset.photo = photo.id;
+  /**
+   * @param {ShownPhoto} photo
+   * @param {number} at - Its place among those that were found.
+   */
+  #item(photo, at) {
+    const lost = trouble(photo);
+    const image = made("img", { alt: "" });
+    const url = photo.missing || photo.too_large ? "" : this.#thumbnails.of(photo.id, (came) => show(photo.id, came));
+    if (url) image.src = url;
+    const sub = [lost || photo.status, photo.blind ? "blind" : "", ...photo.tags].filter(Boolean).join(", ");
+    const words = made("div", { className: "words" },
+      made("div", { className: "title", textContent: photo.name, title: photo.name }),
+      made("div", { className: `sub ${lost ? "missing" : photo.status.split(" ")[0]}`, textContent: sub }));
+    const item = made("div", { className: "item", id: `photo-${photo.id}`, title: photo.problem }, image, words);
+    item.dataset.photo = String(photo.id);
     item.style.top = `${at * HEIGHT}px`;
-    item.setAttribute("role", "option");
-    item.setAttribute("aria-selected", String(selected));
-    item.setAttribute("aria-setsize", String(this.#found.length));
-    item.setAttribute("aria-posinset", String(at + 1));
-    const image = document.createElement("img");
-    image.alt = "";
-    this.#fill(image, photo);
-    const words = document.createElement("div");
-    words.className = "words";
-    const title = document.createElement("div");
-    title.className = "title";
-    title.textContent = photo.name;
-    title.title = photo.name;
-    item.title = photo.problem;
-    const sub = document.createElement("div");
-    const lost = photo.missing ? "missing" : photo.too_large ? "too large" : photo.problem ? "cannot be read" : "";
-    sub.className = `sub ${lost ? "missing" : photo.status.split(" ")[0]}`;
-    sub.textContent = [lost || photo.status, photo.blind ? "blind" : "", ...photo.tags].filter(Boolean).join(", ");
-    words.append(title, sub);
-    item.append(image, words);
+    const said = {
+      role: "option", "aria-selected": photo.id === this.#labelling.document?.id,
+      "aria-setsize": this.#found.length, "aria-posinset": at + 1,
+    };
+    for (const [name, value] of Object.entries(said)) item.setAttribute(name, String(value));
     return item;
   }
-
-  async #fill(image, photo) {
-    const kept = this.#thumbnails.get(photo.id);
-    if (kept) {
-      image.src = kept;
-      return;
-    }
-    if (kept === "" || photo.missing || photo.too_large) return;
-    this.#thumbnails.set(photo.id, "");
-    try {
-      const url = URL.createObjectURL(await blob(`api/photos/${photo.id}/thumbnail`));
-      this.#thumbnails.set(photo.id, url);
-      if (this.#thumbnails.size > KEPT) {
-        const [oldest, old] = this.#thumbnails.entries().next().value;
-        this.#thumbnails.delete(oldest);
-        if (old) URL.revokeObjectURL(old);
-      }
-      const now = document.querySelector(`#photo-${photo.id} img`);
-      if (now) now.src = url;
-    } catch {
-      this.#thumbnails.delete(photo.id);
-    }
-  }
 }
 
+/**
+ * What is wrong with a photo, in a word; empty where nothing is.
+ *
+ * @param {ShownPhoto} photo
+ */
+function trouble({ missing, too_large: tooLarge, problem }) {
+  if (missing) return "missing";
+  if (tooLarge) return "too large";
+  return problem ? "cannot be read" : "";
+}
+
+/**
+ * Put a small picture that has come where its photo is listed by now.
+ *
+ * @param {number} photo
+ * @param {string} url
+ */
+function show(photo, url) {
+  const image = document.querySelector(`#photo-${photo} img`);
+  if (image instanceof HTMLImageElement) image.src = url;
+}
+
+/** @param {string} words */
 function nothing(words) {
-  const said = document.createElement("p");
-  said.className = "nothing";
+  const said = made("p", { className: "nothing", textContent: words });
   said.setAttribute("role", "option"); // a list box holds nothing else
   said.setAttribute("aria-disabled", "true");
-  said.textContent = words;
   return said;
-}
-
-/** A time as people say it. */
-function spoken(seconds) {
-  if (seconds < 90) return `${seconds.toFixed(0)} s`;
-  return seconds < 5400 ? `${(seconds / 60).toFixed(0)} min` : `${(seconds / 3600).toFixed(1)} h`;
 }

@@ -1,28 +1,50 @@
-/** Mouse, pen and fingers on the photo: tools, zoom and pan. */
+/** Mouse, pen and fingers on the photo: which tool follows them, and zoom and pan. */
+
+import { nearest } from "./geometry.js";
+import { DragTool, PanTool, makeTools } from "./tools.js";
+
+/** @import { Point } from "./geometry.js" */
+/** @import { Labelling } from "./labelling.js" */
+/** @import { Previewer } from "./previewer.js" */
+/** @import { Selection } from "./selection.js" */
+/** @import { Bench, Contact, Tool } from "./strokes.js" */
+/** @import { ToolId } from "./tools.js" */
+/** @import { View } from "./view.js" */
 
 const STILL = 4; // screen pixels within which a press is a click
-const BRUSH = 12; // radius of the brush, in screen pixels
+const REACH = { finger: 24, mouse: 10 }; // screen pixels within which an anchor is hit
 
-/** The tools, in the order of their buttons. */
-export const TOOLS = [
-  { id: "anchor", name: "Anchor", key: "A", title: "Click: the line passes through here; with Shift, it leaves the old line around. Drag an anchor to move it, right-click to remove it." },
-  { id: "forbid", name: "Brush", key: "B", title: "Paint where the line must not go; with Alt, erase." },
-  { id: "straight", name: "Straight", key: "S", title: "Drag from one end of a straight piece to the other." },
-  { id: "drawn", name: "Draw", key: "D", title: "Drag along the line." },
-  { id: "hidden", name: "Hide", key: "H", title: "Drag across columns in which the line cannot be seen; with Alt, show them again." },
-];
+/**
+ * @typedef {object} Parts
+ * @property {HTMLCanvasElement} canvas
+ * @property {View} view
+ * @property {Selection} selection
+ * @property {Labelling} labelling
+ * @property {Previewer} previewer
+ * @property {Bench["anchor"]} anchor
+ * @property {Bench["goTo"]} goTo
+ */
 
-/** Turns what pointers do into operations. */
+/** Gives what pointers do to the chosen tool. */
 export class Pointer {
-  tool = "anchor";
-  #parts; // {canvas, view, lines, labelling, previewer, moved}
-  #down = new Map();
+  #parts;
+  #bench;
+  #tools;
+  /** @type {ToolId} */
+  #chosen = "anchor";
+  /** @type {Map<number, Point>} */
+  #down = new Map(); // where each pointer is
+  /** @type {{tool: Tool, from: Point, last: Point, moved: boolean} | null} */
   #press = null;
+  /** @type {{x: number, y: number, apart: number} | null} */
   #pinch = null;
 
+  /** @param {Parts} parts */
   constructor(parts) {
+    const { canvas, view, selection, labelling, previewer, anchor, goTo } = parts;
     this.#parts = parts;
-    const { canvas, view } = parts;
+    this.#bench = { selection, view, previewer, anchor, goTo, apply: labelling.apply.bind(labelling) };
+    this.#tools = makeTools(this.#bench);
     canvas.addEventListener("pointerdown", (event) => this.#start(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
     canvas.addEventListener("pointerup", (event) => this.#end(event));
@@ -35,171 +57,162 @@ export class Pointer {
     }, { passive: false });
   }
 
-  #at(event) {
-    const box = this.#parts.canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
+  /**
+   * Follow the pointer with another tool.
+   *
+   * @param {ToolId} tool
+   */
+  use(tool) {
+    this.#chosen = tool;
+    this.#parts.previewer.clear();
   }
 
+  /** @param {PointerEvent} event */
   #start(event) {
-    const { canvas, lines, labelling, view } = this.#parts;
+    const { canvas, labelling } = this.#parts;
     if (!labelling.document) return;
     canvas.focus({ preventScroll: true });
     canvas.setPointerCapture(event.pointerId);
     const at = this.#at(event);
     this.#down.set(event.pointerId, at);
-    if (this.#down.size === 2) {
+    if (this.#down.size > 1) {
       this.#drop();
       this.#pinch = this.#fingers();
       return;
     }
-    if (this.#down.size > 2) return;
-    const anchor = lines.anchorAt(...at, event.pointerType === "touch" ? 24 : 10);
+    const anchor = this.#anchorAt(event);
     if (event.button === 2 && anchor !== undefined) {
       labelling.apply({ kind: "remove", column: anchor });
       return;
     }
-    const pans = event.button !== 0;
-    const kind = pans ? "pan" : this.tool === "anchor" && anchor !== undefined ? "drag" : this.tool;
-    this.#press = { kind, from: at, last: at, anchor, moved: false, touch: event.pointerType === "touch", allow: event.altKey };
-    const pixel = view.toPixel(...at);
-    if (kind === "forbid") {
-      const radius = Math.min(Math.max(Math.round(BRUSH / view.scale), 1), 1000);
-      lines.stroke = { kind, points: [pixel], radius, allow: event.altKey };
-    } else if (["straight", "drawn", "hidden"].includes(kind)) {
-      lines.stroke = { kind, points: [pixel] };
-    }
-    if (this.#press.touch && kind !== "pan") this.#show(at, pixel);
-    lines.draw();
+    this.#press = { tool: this.#toolFor(event.button, anchor), from: at, last: at, moved: false };
+    this.#press.tool.start(this.#contact(event));
   }
 
+  /** @param {PointerEvent} event */
   #move(event) {
-    const { view, lines, labelling, previewer } = this.#parts;
-    if (!labelling.document) return;
-    const at = this.#at(event);
-    if (this.#down.has(event.pointerId)) this.#down.set(event.pointerId, at);
-    if (this.#pinch) return this.#pinched();
-    const pixel = view.toPixel(...at);
-    const press = this.#press;
-    if (!press) {
-      if (this.tool === "anchor" && event.pointerType !== "touch" && !labelling.waiting) {
-        if (lines.anchorAt(...at, 10) === undefined) previewer.ask(...pixel);
-        else previewer.clear();
-      }
-      return;
-    }
-    press.moved ||= Math.hypot(at[0] - press.from[0], at[1] - press.from[1]) > STILL;
-    if (press.kind === "pan" || (press.kind === "anchor" && press.moved && !press.touch)) {
-      previewer.clear();
-      view.pan(at[0] - press.last[0], at[1] - press.last[1]);
-    } else if (press.kind === "drag" && press.moved) {
-      lines.dragged = press.anchor;
-      this.#show(at, pixel, press.anchor);
-    } else if (press.kind === "anchor") {
-      if (press.touch) this.#show(at, pixel);
-    } else if (lines.stroke) {
-      const points = lines.stroke.points;
-      if (press.kind === "straight" || press.kind === "hidden") points.splice(1, 1, pixel);
-      else if (String(points.at(-1)) !== String(pixel)) points.push(pixel);
-    }
-    press.last = at;
-    lines.draw();
+    if (!this.#parts.labelling.document) return;
+    if (this.#down.has(event.pointerId)) this.#down.set(event.pointerId, this.#at(event));
+    if (this.#pinch) this.#pinched(this.#pinch);
+    else if (this.#press) this.#press.tool.move(this.#contact(event));
+    else this.#hover(event);
   }
 
-  #show(at, pixel, lifted = null) {
-    const { lines, previewer } = this.#parts;
-    if (this.#press.touch) lines.finger = at;
-    if (this.#press.kind === "anchor" || this.#press.kind === "drag") {
-      lines.cursor = { column: pixel[0], row: pixel[1] };
-      previewer.ask(...pixel, lifted);
-    }
-  }
-
+  /** @param {PointerEvent} event */
   #end(event) {
-    const { view, lines, labelling } = this.#parts;
-    this.#down.delete(event.pointerId);
-    if (this.#pinch) {
-      if (this.#down.size === 0) this.#pinch = null;
-      return;
-    }
-    const press = this.#press;
-    if (!press) return;
-    const [column, row] = view.toPixel(...this.#at(event));
-    const points = lines.stroke?.points ?? [];
-    const allow = lines.stroke?.allow ?? false;
-    const radius = lines.stroke?.radius;
-    this.#drop();
-    if (press.kind === "anchor" && (press.touch || !press.moved)) {
-      this.#parts.anchor(column, row, event.shiftKey);
-    } else if (press.kind === "drag" && press.moved) {
-      labelling.apply({ kind: "move", from_column: press.anchor, column, row });
-    } else if (press.kind === "drag") {
-      this.#parts.moved(press.anchor);
-    } else if (press.kind === "forbid") {
-      labelling.apply({ kind: "forbid", points: thinned(points), radius, allow });
-    } else if (press.kind === "straight" && points.length > 1 && points[0][0] !== points[1][0]) {
-      const [[first, high], [last, low]] = points;
-      labelling.apply({ kind: "straight", column: first, row: high, to_column: last, to_row: low });
-    } else if (press.kind === "drawn" && points.length > 1) {
-      labelling.apply({ kind: "drawn", ...drawn(points) });
-    } else if (press.kind === "hidden" && points.length > 1) {
-      const ends = [points[0][0], points[1][0]];
-      labelling.apply({ kind: "hidden", first: Math.min(...ends), last: Math.max(...ends), hidden: !press.allow });
+    this.#lift(event);
+    if (this.#press) {
+      this.#press.tool.end(this.#contact(event));
+      this.#drop();
     }
   }
 
+  /** @param {PointerEvent} event */
   #cancel(event) {
-    this.#down.delete(event.pointerId);
-    if (this.#down.size === 0) this.#pinch = null;
+    this.#lift(event);
     this.#drop();
   }
 
+  /** @param {PointerEvent} event */
   #leave(event) {
     if (!this.#press && event.pointerType !== "touch") this.#parts.previewer.clear();
   }
 
-  /** Forget what is being done. */
-  #drop() {
-    const { lines, previewer } = this.#parts;
-    this.#press = null;
-    lines.stroke = lines.finger = lines.dragged = null;
-    if (lines.cursor) lines.cursor = { ...lines.cursor, row: null };
-    if (this.#down.size) previewer.clear();
-    lines.draw();
+  /**
+   * A pointer is up; with two fingers left, these go on.
+   *
+   * @param {PointerEvent} event
+   */
+  #lift(event) {
+    this.#down.delete(event.pointerId);
+    if (this.#down.size === 0) this.#pinch = null;
+    else if (this.#pinch && this.#down.size > 1) this.#pinch = this.#fingers();
   }
 
+  /**
+   * Show what a click would do.
+   *
+   * @param {PointerEvent} event
+   */
+  #hover(event) {
+    const { view, labelling, previewer } = this.#parts;
+    if (this.#chosen !== "anchor" || event.pointerType === "touch" || labelling.waiting) return;
+    if (this.#anchorAt(event) === undefined) previewer.ask(...view.toPixel(...this.#at(event)));
+    else previewer.clear();
+  }
+
+  /**
+   * @param {number} pressed - Which button of the mouse.
+   * @param {number | undefined} anchor - Column of the anchor that is hit.
+   * @returns {Tool}
+   */
+  #toolFor(pressed, anchor) {
+    if (pressed !== 0) return new PanTool(this.#bench);
+    if (this.#chosen === "anchor" && anchor !== undefined) return new DragTool(this.#bench, anchor);
+    return this.#tools[this.#chosen];
+  }
+
+  /**
+   * What a press has come to with this event.
+   *
+   * @param {PointerEvent} event
+   * @returns {Contact}
+   */
+  #contact(event) {
+    const at = this.#at(event);
+    const press = this.#press ?? { from: at, last: at, moved: false };
+    press.moved ||= Math.hypot(at[0] - press.from[0], at[1] - press.from[1]) > STILL;
+    const by = /** @type {Point} */ ([at[0] - press.last[0], at[1] - press.last[1]]);
+    press.last = at;
+    return {
+      at, by, pixel: this.#parts.view.toPixel(...at), moved: press.moved,
+      finger: event.pointerType === "touch", shift: event.shiftKey, alt: event.altKey,
+    };
+  }
+
+  /** Forget what is being done. */
+  #drop() {
+    this.#press = null;
+    this.#parts.selection.letGo();
+    if (this.#down.size) this.#parts.previewer.clear();
+  }
+
+  /**
+   * @param {PointerEvent} event
+   * @returns {Point}
+   */
+  #at(event) {
+    const bounds = this.#parts.canvas.getBoundingClientRect();
+    return [event.clientX - bounds.left, event.clientY - bounds.top];
+  }
+
+  /**
+   * Column of the anchor under a pointer; undefined where there is none.
+   *
+   * @param {PointerEvent} event
+   */
+  #anchorAt(event) {
+    const { view, labelling } = this.#parts;
+    const [x, y] = this.#at(event);
+    const reach = event.pointerType === "touch" ? REACH.finger : REACH.mouse;
+    return nearest(labelling.document?.anchors ?? [], ([column, row]) => {
+      const [ax, ay] = view.toScreen(column + 0.5, row);
+      return Math.hypot(ax - x, ay - y);
+    }, reach)?.[0];
+  }
+
+  /** Middle and distance of the first two fingers. */
   #fingers() {
     const [[ax, ay], [bx, by]] = [...this.#down.values()];
     return { x: (ax + bx) / 2, y: (ay + by) / 2, apart: Math.max(Math.hypot(ax - bx, ay - by), 1) };
   }
 
-  #pinched() {
+  /** @param {{x: number, y: number, apart: number}} before */
+  #pinched(before) {
     if (this.#down.size < 2) return;
-    const before = this.#pinch;
     const now = this.#fingers();
     this.#parts.view.zoom(now.apart / before.apart, before.x, before.y);
     this.#parts.view.pan(now.x - before.x, now.y - before.y);
     this.#pinch = now;
   }
-}
-
-/** A stroke with at most 2,000 points. */
-function thinned(points) {
-  const step = Math.ceil(points.length / 2000);
-  return points.filter((_, at) => at % step === 0 || at === points.length - 1);
-}
-
-/** First column and a row a column of a drawn stroke; where it goes back, what was drawn last counts. */
-function drawn(points) {
-  const rows = new Map();
-  points.forEach(([column, row], at) => {
-    const [from, high] = points[Math.max(at - 1, 0)];
-    const steps = Math.max(Math.abs(column - from), 1);
-    for (let step = 0; step <= steps; step++) {
-      const share = step / steps;
-      rows.set(Math.round(from + share * (column - from)), Math.round(high + share * (row - high)));
-    }
-  });
-  const first = Math.min(...rows.keys());
-  const last = Math.max(...rows.keys());
-  return { first, rows: Array.from({ length: last - first + 1 }, (_, at) => rows.get(first + at)) };
 }

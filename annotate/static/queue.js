@@ -7,6 +7,11 @@
  */
 
 import { ApiError, post } from "./api.js";
+import { Events } from "./events.js";
+import { isAccept, senseless } from "./senseless.js";
+
+/** @import { Shelf } from "./shelf.js" */
+/** @import { Document, Operation } from "./types.js" */
 
 const RETRY = [500, 1000, 2000, 4000, 8000]; // milliseconds between attempts
 const PATIENCE = [10_000, 20_000, 40_000, 60_000]; // within which an attempt must be answered
@@ -18,12 +23,14 @@ const REFUSED = new Set([400, 403, 404, 405, 409, 410, 413, 415, 422]); // askin
  * @property {number} photo - The photo it is for, whatever is shown by now.
  * @property {string} name - Of the photo.
  * @property {"operations" | "undo" | "redo"} what
- * @property {object | null} operation - With `operations`.
+ * @property {Operation | null} operation - With `operations`.
  * @property {number} revision - That it was made on; -1 for any.
  * @property {string} says - What it is, for people.
  * @property {string} chain - Of the operations of a chain, each was made on what the one before it left.
  * @property {boolean} [quiet] - Nothing that somebody did: not counted, not kept over a reload, not missed.
  */
+
+/** @typedef {{photo: number, name: string, says: string, reason: string, at: number}} Lost - What is not kept, why, and since when. */
 
 /** An id that nothing else has; also where the page is not on this machine, and `randomUUID` is missing. */
 export function newId() {
@@ -33,23 +40,40 @@ export function newId() {
 }
 
 /**
- * Events: `change` (of `waiting`, `reason` or `lost`), `kept` (detail: {item, document}), `lost`
- * (detail: {item, reason}), `stale` (detail: {photo, name}: it was changed elsewhere).
+ * @typedef {object} Told
+ * @property {undefined} change - Of `waiting`, `reason` or `lost`.
+ * @property {{item: Item, document: Document}} kept
+ * @property {{item: Item, reason: string}} lost
+ * @property {{photo: number, name: string}} stale - The photo was changed elsewhere.
  */
-export class Queue extends EventTarget {
-  /** What could not be kept, oldest first: {photo, name, says, reason, at}. */
+
+/**
+ * Sends what was done.
+ *
+ * @extends {Events<Told>}
+ */
+export class Queue extends Events {
+  /** @type {Lost[]} What could not be kept, oldest first. */
   lost = [];
   /** Why what waits is still waiting; empty while it is on its way. */
   reason = "";
+  /** @type {Item[]} */
   #items = [];
+  /** @type {Map<string, (document: Document | null) => void>} */
   #ends = new Map(); // by id: what is told when an item is kept or lost
+  /** @type {Shelf | null} */
   #shelf = null;
   #working = false;
+  /** @type {(value?: unknown) => void} */
   #wake = () => {};
   #pause;
   #patience;
 
-  /** `pause(milliseconds)` waits before another attempt; `patience` is how long each may take. */
+  /**
+   * @param {object} [how]
+   * @param {(milliseconds: number) => Promise<unknown>} [how.pause] - Waits before another attempt.
+   * @param {number[]} [how.patience] - How long each attempt may take.
+   */
   constructor({ pause = (time) => new Promise((done) => setTimeout(done, time)), patience = PATIENCE } = {}) {
     super();
     this.#pause = pause;
@@ -61,12 +85,20 @@ export class Queue extends EventTarget {
     return this.#items.filter((item) => !item.quiet).length;
   }
 
-  /** Operations on a photo that are not acknowledged, oldest first. */
+  /**
+   * Operations on a photo that are not acknowledged, oldest first.
+   *
+   * @param {number} photo
+   */
   of(photo) {
     return this.#items.filter((item) => item.photo === photo && !item.quiet);
   }
 
-  /** Keep what waits on a shelf as well. */
+  /**
+   * Keep what waits on a shelf as well.
+   *
+   * @param {Shelf} shelf
+   */
   use(shelf) {
     this.#shelf = shelf;
     this.#changed();
@@ -74,6 +106,7 @@ export class Queue extends EventTarget {
 
   /** Take over what pages that are gone have left on the shelf. */
   async recover() {
+    if (!this.#shelf) return;
     const { items, lost } = await this.#shelf.orphans();
     if (!items.length && !lost.length) return;
     const known = new Set(this.#items.map((item) => item.id));
@@ -86,12 +119,13 @@ export class Queue extends EventTarget {
   /**
    * Send an operation when its turn has come.
    *
-   * @param {Omit<Item, "id" | "chain">} made
-   * @returns {Promise<object | null>} The photo's document once it is kept; null when it is refused.
+   * @param {Omit<Item, "id" | "chain" | "operation"> & {operation?: Operation | null}} made
+   * @returns {Promise<Document | null>} The photo's document once it is kept; null when it is refused.
    */
   add(made) {
     const chain = this.of(made.photo).at(-1)?.chain ?? newId();
     const item = { id: newId(), chain, operation: null, ...made };
+    /** @type {Promise<Document | null>} */
     const ended = new Promise((done) => this.#ends.set(item.id, done));
     this.#items.push(item);
     this.#changed();
@@ -101,7 +135,7 @@ export class Queue extends EventTarget {
 
   /** Wait until nothing waits. */
   async settled() {
-    while (this.#items.length) await new Promise((done) => this.addEventListener("change", done, { once: true }));
+    while (this.#items.length) await new Promise((done) => this.on("change", done, { once: true }));
   }
 
   /** Try again now: the network is back. */
@@ -125,7 +159,8 @@ export class Queue extends EventTarget {
         try {
           this.#keep(item, await this.#send(item, tries));
           tries = 0;
-        } catch (error) {
+        } catch (caught) {
+          const error = ApiError.of(caught);
           if (!this.#refused(item, error)) {
             this.reason = error.message;
             this.#changed();
@@ -138,6 +173,10 @@ export class Queue extends EventTarget {
     }
   }
 
+  /**
+   * @param {Item} item
+   * @param {number} tries
+   */
   async #send(item, tries) {
     const { id, revision, operation } = item;
     const body = operation ? { id, revision, operation } : { id, revision };
@@ -149,6 +188,10 @@ export class Queue extends EventTarget {
     return document;
   }
 
+  /**
+   * @param {Item} item
+   * @param {Document} document
+   */
   #keep(item, document) {
     const kept = document.kept ?? document.revision;
     this.#drop([item]);
@@ -156,19 +199,24 @@ export class Queue extends EventTarget {
     if (!item.quiet) for (const next of this.#after(item)) next.revision = kept;
     this.reason = "";
     this.#changed();
-    this.#tell("kept", { item, document });
+    this.tell("kept", { item, document });
     this.#end(item, document);
   }
 
-  /** Deal with a refusal; false where there was none, so that the item has to be sent again. */
+  /**
+   * Deal with a refusal; false where there was none, so that the item has to be sent again.
+   *
+   * @param {Item} item
+   * @param {ApiError} error
+   */
   #refused(item, error) {
     if (!REFUSED.has(error.status)) return false;
     this.reason = "";
     const waiting = this.#after(item);
-    if (error.status === 409 && Number.isInteger(error.revision) && error.revision !== item.revision) {
+    if (error.status === 409 && error.revision !== undefined && error.revision !== item.revision) {
       for (const one of waiting) one.revision = error.revision;
       this.#lose(senseless(waiting, isAccept, true), "the photo was changed meanwhile");
-      this.#tell("stale", { photo: item.photo, name: item.name });
+      this.tell("stale", { photo: item.photo, name: item.name });
     } else if (error.status === 404 || error.status === 410) {
       this.#lose(waiting, error.message);
     } else if (item.what !== "operations") {
@@ -179,32 +227,46 @@ export class Queue extends EventTarget {
     return true;
   }
 
-  /** An operation and the rest of its chain, which has not been sent yet; what another tab has left may have been. */
+  /**
+   * An operation and the rest of its chain, which has not been sent yet; what another tab has left may have been.
+   *
+   * @param {Item} item
+   */
   #after({ photo, chain }) {
     return this.#items.filter((one) => one.photo === photo && one.chain === chain);
   }
 
+  /**
+   * @param {Item[]} items
+   * @param {string} reason
+   */
   #lose(items, reason) {
     this.#drop(items);
     const at = Date.now();
     this.lost.push(...items.filter((item) => !item.quiet).map(({ photo, name, says }) => ({ photo, name, says, reason, at })));
     this.#changed();
     for (const item of items) {
-      this.#tell("lost", { item, reason });
+      this.tell("lost", { item, reason });
       this.#end(item, null);
     }
   }
 
+  /**
+   * @param {Item} item
+   * @param {Document | null} document
+   */
   #end(item, document) {
     this.#ends.get(item.id)?.(document);
     this.#ends.delete(item.id);
   }
 
+  /** @param {Item[]} items */
   #drop(items) {
     const ids = new Set(items.map((item) => item.id));
     this.#items = this.#items.filter((item) => !ids.has(item.id));
   }
 
+  /** @param {number} time */
   async #rest(time) {
     await Promise.race([this.#pause(time), new Promise((done) => (this.#wake = done))]);
     this.#wake = () => {};
@@ -212,44 +274,6 @@ export class Queue extends EventTarget {
 
   #changed() {
     this.#shelf?.put(this.#items.filter((item) => !item.quiet), this.lost);
-    this.#tell("change");
+    this.tell("change");
   }
-
-  #tell(name, detail) {
-    this.dispatchEvent(new CustomEvent(name, { detail }));
-  }
-}
-
-/** Another tab's line would be accepted, which nobody has looked at. */
-function isAccept({ operation }) {
-  return operation?.kind === "status" && operation.status === "accepted";
-}
-
-/**
- * Which of the operations that wait for a photo cannot be sent any more: those that `out` names, and
- * each undo and redo that would now take back, or do again, something else than it was meant for.
- *
- * @param {Item[]} waiting - For one photo, oldest first.
- * @param {(item: Item) => boolean} out
- * @param {boolean} stale - What came before has changed, and must not be undone by what waits.
- */
-function senseless(waiting, out, stale) {
-  const done = []; // whether each thing that can be undone, made by what waits, is sent
-  let undone = [];
-  let first = true; // whether Redo still does again what was taken back before
-  return waiting.filter((item) => {
-    let sent = !out(item);
-    if (item.what === "undo") {
-      sent &&= done.length ? done.at(-1) : !stale;
-      undone.push(done.pop() ?? sent);
-    } else if (item.what === "redo") {
-      sent &&= undone.length ? undone.at(-1) : first && !stale;
-      done.push(undone.pop() ?? sent);
-    } else if (item.operation.kind !== "tag" && item.operation.kind !== "open") {
-      done.push(sent);
-      undone = [];
-      first = false;
-    }
-    return !sent;
-  });
 }

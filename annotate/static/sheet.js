@@ -1,39 +1,56 @@
 /** The sheet: straightened strips of many photos, worked through by key. */
 
-import { blob, get } from "./api.js";
+import { ApiError, get } from "./api.js";
+import { cardFor, labelCard } from "./cards.js";
+import { around, box, button, made, offer, select } from "./dom.js";
+import { Events } from "./events.js";
+
+/** @import { Labelling } from "./labelling.js" */
+/** @import { ShownPhoto } from "./types.js" */
+
+const ALL = "all";
 
 /**
  * A page of cards over the rest of the page. One card is the current one, and stays it while a button
- * elsewhere has the focus. Events: `card` (another one, or its photo changed), `page` (other cards).
+ * elsewhere has the focus. Events: `card` (another one, or its photo changed), `page` (other cards),
+ * `finish` (the current photo is given a status).
+ *
+ * @extends {Events<{card: undefined, page: undefined, finish: "accepted" | "rejected"}>}
  */
-export class Sheet extends EventTarget {
-  #parts; // {sheet, main, cards, status, page, previous, next, close}
+export class Sheet extends Events {
   #labelling;
-  #act; // {open(id), finish(status)}
+  #focus;
+  #cards = box("sheet-cards");
   #page = 0;
   #pages = 1;
+  /** @type {ShownPhoto[]} */
   #photos = [];
   #at = 0;
   #turn = 0;
+  /** @type {string[]} */
   #urls = [];
 
-  constructor(labelling, parts, act) {
+  /**
+   * @param {Labelling} labelling
+   * @param {() => void} focus - Gives the photo the keys.
+   */
+  constructor(labelling, focus) {
     super();
     this.#labelling = labelling;
-    this.#parts = parts;
-    this.#act = act;
-    parts.status.addEventListener("change", () => this.#show(0));
-    parts.previous.addEventListener("click", () => this.#show(this.#page - 1));
-    parts.next.addEventListener("click", () => this.#show(this.#page + 1));
-    parts.close.addEventListener("click", () => this.hide());
+    this.#focus = focus;
+    select("sheet-status").addEventListener("change", () => this.#show(0));
+    button("sheet-previous").addEventListener("click", () => this.#show(this.#page - 1));
+    button("sheet-next").addEventListener("click", () => this.#show(this.#page + 1));
+    button("sheet-close").addEventListener("click", () => this.hide());
     document.addEventListener("keydown", (event) => this.shown && this.#key(event));
-    parts.cards.addEventListener("focusin", (event) => this.#choose(event.target.closest(".card")));
-    labelling.addEventListener("list", () => this.#renew());
+    this.#cards.addEventListener("focusin", (event) => this.#choose(around(event, ".card")));
+    labelling.on("legend", ({ statuses }) => offer(select("sheet-status"), [...statuses, ALL]));
+    labelling.on("list", () => this.#renew());
   }
 
   /** Whether it is shown. */
   get shown() {
-    return !this.#parts.sheet.hidden;
+    return !box("sheet").hidden;
   }
 
   /** Photo of the current card; null where there is none. */
@@ -41,11 +58,16 @@ export class Sheet extends EventTarget {
     return this.#photos[this.#at] ?? null;
   }
 
+  /** What has the keys while it is shown. */
+  get home() {
+    return this.#card(this.#at) ?? button("sheet-close");
+  }
+
   /** Show it instead of the photo. */
   async show() {
     if (this.shown) return;
-    this.#parts.sheet.hidden = false;
-    this.#parts.main.hidden = true;
+    box("sheet").hidden = false;
+    box("main").hidden = true;
     this.#labelling.say(""); // what was said was of a photo that is not seen any more
     await this.#show(0);
   }
@@ -54,94 +76,79 @@ export class Sheet extends EventTarget {
   hide() {
     if (!this.shown) return;
     this.#turn++;
-    this.#parts.sheet.hidden = true;
-    this.#parts.main.hidden = false;
+    box("sheet").hidden = true;
+    box("main").hidden = false;
     this.#put([]);
     dispatchEvent(new Event("resize"));
-    this.#parts.main.querySelector("#lines").focus();
+    this.#focus();
   }
 
-  /** Go some cards on. */
+  /**
+   * Go some cards on.
+   *
+   * @param {number} by
+   */
   step(by) {
     this.#card(this.#at + by)?.focus();
   }
 
-  /** Go to the card of a photo, if it is on this page. */
+  /**
+   * Go to the card of a photo, if it is on this page.
+   *
+   * @param {number} id
+   */
   focus(id) {
     this.#card(this.#photos.findIndex((photo) => photo.id === id))?.focus();
   }
 
+  /** @param {number} page */
   async #show(page) {
     const turn = ++this.#turn;
-    const status = this.#parts.status.value;
+    const status = select("sheet-status").value;
     this.#put([], "Reading the strips…");
     let found;
     try {
       found = await get(`api/sheet?status=${encodeURIComponent(status)}&page=${Math.max(page, 0)}`);
     } catch (error) {
-      if (turn === this.#turn) this.#put([], error.message);
+      if (turn === this.#turn) this.#put([], ApiError.of(error).message);
       return;
     }
     if (turn !== this.#turn) return;
     this.#pages = found.pages;
     this.#page = Math.min(Math.max(page, 0), found.pages - 1);
-    this.#put(found.photos, status === "all" ? "There is no photo." : `No photo is ${status}.`);
-    (this.#card(0) ?? this.#parts.close).focus();
+    this.#put(found.photos, status === ALL ? "There is no photo." : `No photo is ${status}.`);
+    (this.#card(0) ?? button("sheet-close")).focus();
   }
 
-  /** Lay out cards, or words where there are none. */
+  /**
+   * Lay out cards, or words where there are none.
+   *
+   * @param {ShownPhoto[]} photos
+   * @param {string} [words]
+   */
   #put(photos, words = "") {
     this.#urls.splice(0).forEach((url) => URL.revokeObjectURL(url));
     this.#photos = photos;
     this.#at = 0;
-    const { page, previous, next, cards } = this.#parts;
-    page.textContent = `${this.#page + 1} / ${this.#pages}`;
-    previous.disabled = this.#page === 0;
-    next.disabled = this.#page >= this.#pages - 1;
-    const none = document.createElement("li");
-    none.textContent = words;
-    cards.replaceChildren(...(photos.length ? photos.map((photo, at) => this.#made(photo, at)) : [none]));
-    this.dispatchEvent(new Event("page"));
-    this.dispatchEvent(new Event("card"));
-  }
-
-  #made(photo, at) {
-    const card = document.createElement("li");
-    card.className = "card";
-    card.tabIndex = 0;
-    card.dataset.at = at;
-    const image = document.createElement("img");
-    image.alt = `Straightened strip of ${photo.name}`;
-    const line = document.createElement("div");
-    line.className = "line";
-    const name = document.createElement("span");
-    name.textContent = photo.name;
-    const status = document.createElement("span");
-    status.className = "status";
-    line.append(name, status);
-    card.append(image, line);
-    this.#say(card, photo);
-    card.addEventListener("dblclick", () => this.#openPhoto(photo));
-    blob(`api/photos/${photo.id}/strip?width=800`).then((data) => {
-      image.src = URL.createObjectURL(data);
-      this.#urls.push(image.src);
-    }, (error) => {
-      const words = document.createElement("p");
-      words.className = "none";
-      words.textContent = error.message;
-      image.replaceWith(words);
+    box("sheet-page").textContent = `${this.#page + 1} / ${this.#pages}`;
+    button("sheet-previous").disabled = this.#page === 0;
+    button("sheet-next").disabled = this.#page >= this.#pages - 1;
+    const cards = photos.map((photo, at) => {
+      const card = cardFor(photo, at, (url) => this.#urls.push(url));
+      card.addEventListener("dblclick", () => this.#openPhoto(photo));
+      return card;
     });
-    return card;
+    this.#cards.replaceChildren(...(cards.length ? cards : [made("li", { textContent: words })]));
+    this.tell("page");
+    this.tell("card");
   }
 
+  /**
+   * @param {number} at
+   * @returns {HTMLElement | null}
+   */
   #card(at) {
-    return this.#parts.cards.querySelector(`[data-at="${at}"]`);
-  }
-
-  #say(card, photo) {
-    const status = card.querySelector(".status");
-    status.textContent = [photo.status, ...photo.tags].join(", ");
-    status.dataset.status = photo.status;
+    return this.#cards.querySelector(`[data-at="${at}"]`);
   }
 
   /** The list has changed: show what it says about the photos of the cards. */
@@ -149,35 +156,53 @@ export class Sheet extends EventTarget {
     if (!this.shown) return;
     const listed = new Map(this.#labelling.photos.map((photo) => [photo.id, photo]));
     this.#photos = this.#photos.map((photo) => listed.get(photo.id) ?? photo);
-    this.#photos.forEach((photo, at) => this.#say(this.#card(at), photo));
-    this.dispatchEvent(new Event("card"));
+    this.#photos.forEach((photo, at) => labelCard(this.#card(at), photo));
+    this.tell("card");
   }
 
+  /** @param {HTMLElement | null} card */
   #choose(card) {
     if (!card) return;
     this.#at = Number(card.dataset.at);
-    for (const one of this.#parts.cards.querySelectorAll(".card")) one.classList.toggle("current", one === card);
-    this.dispatchEvent(new Event("card"));
+    for (const one of this.#cards.querySelectorAll(".card")) one.classList.toggle("current", one === card);
+    this.tell("card");
   }
 
+  /** @param {KeyboardEvent} event */
   #key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
-    const elsewhere = event.target.closest("select, input, [role=listbox]");
-    if (elsewhere && event.key !== "Escape") return;
-    const pressing = event.target.closest("button");
-    const across = getComputedStyle(this.#parts.cards).gridTemplateColumns.split(" ").length;
-    const step = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: across, ArrowUp: -across }[event.key];
-    const status = { a: "accepted", d: "rejected" }[event.key];
-    if (event.key === "Escape" || event.key === "w") this.hide();
-    else if (step && !pressing) this.step(step);
-    else if (event.key === "Enter" && !pressing && this.card) this.#openPhoto(this.card);
-    else if (status) this.#act.finish(status);
-    else return;
-    event.preventDefault();
+    const { key, ctrlKey, metaKey, altKey } = event;
+    const elsewhere = key !== "Escape" && around(event, "select, input, [role=listbox]");
+    if (ctrlKey || metaKey || altKey || elsewhere || document.querySelector("dialog[open]")) return;
+    if (this.#keyOfSheet(key) || this.#keyOfCards(key, event)) event.preventDefault();
   }
 
+  /** @param {string} key */
+  #keyOfSheet(key) {
+    if (key === "a" || key === "d") this.tell("finish", key === "a" ? "accepted" : "rejected");
+    else if (key === "Escape" || key === "w") this.hide();
+    else return false;
+    return true;
+  }
+
+  /**
+   * Keys that do something else on a button.
+   *
+   * @param {string} key
+   * @param {KeyboardEvent} event
+   */
+  #keyOfCards(key, event) {
+    if (around(event, "button")) return false;
+    const across = getComputedStyle(this.#cards).gridTemplateColumns.split(" ").length;
+    const step = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: across, ArrowUp: -across }[key];
+    if (step) this.step(step);
+    else if (key === "Enter" && this.card) this.#openPhoto(this.card);
+    else return false;
+    return true;
+  }
+
+  /** @param {ShownPhoto} photo */
   #openPhoto(photo) {
     this.hide();
-    this.#act.open(photo.id);
+    this.#labelling.open(photo.id);
   }
 }

@@ -9,6 +9,10 @@
 
 import { newId } from "./queue.js";
 
+/** @import { Item, Lost } from "./queue.js" */
+/** @typedef {{items: Item[], lost: Lost[]}} Held - What waits, and what is not kept. */
+/** @typedef {Held & {folder: string, seen: number, left: boolean}} Entry - What a tab keeps. */
+
 const PREFIX = "skyline-queue";
 /** Milliseconds between two signs of life. */
 export const ALIVE = 20_000;
@@ -21,11 +25,17 @@ export class Shelf {
   #pass;
   #folder;
   #tab = newId();
+  /** @type {Held} */
   #held = { items: [], lost: [] };
+  /** @type {Set<string | undefined>} */
   #living = new Set();
 
   /**
-   * @param {{pass: string, folder: string, storage: Storage, locks?: LockManager}} where
+   * @param {object} where
+   * @param {string} where.pass
+   * @param {string} where.folder
+   * @param {Pick<Storage, "getItem" | "setItem" | "removeItem">} where.storage
+   * @param {Pick<LockManager, "request" | "query">} [where.locks]
    */
   constructor({ pass, folder, storage, locks }) {
     this.#storage = storage;
@@ -35,7 +45,12 @@ export class Shelf {
     locks?.request(`${PREFIX}/${this.#tab}`, () => new Promise(() => {})).catch(() => {}); // held until the page is gone
   }
 
-  /** Keep this; false where the browser keeps nothing, or no more. */
+  /**
+   * Keep this; false where the browser keeps nothing, or no more.
+   *
+   * @param {Item[]} items
+   * @param {Lost[]} lost
+   */
   put(items, lost) {
     this.#held = { items, lost };
     return this.#write(false);
@@ -51,11 +66,12 @@ export class Shelf {
     if (!this.#locks) this.#write(true);
   }
 
-  /** What tabs of this pass have left behind: {items, lost}. It is on this shelf alone from now on. */
+  /** What tabs of this pass have left behind. It is on this shelf alone from now on. */
   async orphans() {
+    /** @type {Held} */
     const found = { items: [], lost: [] };
     if (this.#locks) {
-      const { held } = await this.#locks.query();
+      const { held = [] } = await this.#locks.query();
       this.#living = new Set(held.map((lock) => lock.name));
     }
     for (const [key, entry] of this.#entries()) {
@@ -76,11 +92,16 @@ export class Shelf {
       .map(([, { folder, items }]) => ({ folder, count: items.length }));
   }
 
+  /**
+   * @param {string} tab
+   * @param {Entry} entry
+   */
   #lives(tab, entry) {
     if (this.#locks) return this.#living.has(`${PREFIX}/${tab}`);
     return !entry.left && Date.now() - entry.seen < DEAD;
   }
 
+  /** @param {boolean} left */
   #write(left) {
     const key = `${PREFIX}/${this.#pass}/${this.#tab}`;
     try {
@@ -92,7 +113,9 @@ export class Shelf {
     }
   }
 
+  /** @returns {Generator<[string, Entry]>} */
   *#entries() {
+    /** @type {string[]} */
     let keys = [];
     try {
       keys = Object.keys(this.#storage).filter((key) => key.startsWith(`${PREFIX}/`));
@@ -101,7 +124,7 @@ export class Shelf {
     }
     for (const key of keys) {
       try {
-        const entry = JSON.parse(this.#storage.getItem(key));
+        const entry = JSON.parse(this.#storage.getItem(key) ?? "");
         if (Array.isArray(entry.items) && Array.isArray(entry.lost)) yield [key, entry];
       } catch {
         // not ours, or gone

@@ -1,116 +1,123 @@
 /** Under the photo: the straightened strip, and the uncertainty of each column. */
 
 import { picture } from "./api.js";
+import { canvas } from "./dom.js";
+import { disc, fit, penOf, ratio } from "./drawing.js";
+import { columnAt, uncertainty, within } from "./geometry.js";
 
-const SURE = 4; // a margin above which a column counts as sure
+/** @import { Labelling } from "./labelling.js" */
+/** @import { Document, Legend, Margins } from "./types.js" */
+/** @import { View } from "./view.js" */
 
-/** Both strips; clicking one of them calls `go` with a column. */
+const SETTLING = 120; // milliseconds after an edit until the strip is asked for
+
+/** @typedef {{document: Document, margins: Margins | null, legend: Legend}} Shown */
+
+/** Both strips. */
 export class Strips {
-  #strip;
-  #margin;
+  #strip = canvas("strip");
+  #margin = canvas("margin");
   #labelling;
   #view;
+  /** @type {ImageBitmap | null} */
   #image = null;
-  #timer = 0;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #timer;
   #turn = 0;
 
-  constructor({ strip, margin, labelling, view, go }) {
-    this.#strip = strip;
-    this.#margin = margin;
+  /**
+   * @param {Labelling} labelling
+   * @param {View} view
+   * @param {(column: number) => void} goTo - Called with the column that is clicked.
+   */
+  constructor(labelling, view, goTo) {
     this.#labelling = labelling;
     this.#view = view;
-    for (const canvas of [strip, margin]) {
-      canvas.addEventListener("click", (event) => {
+    for (const strip of [this.#strip, this.#margin]) {
+      strip.addEventListener("click", (event) => {
         const width = labelling.document?.width;
-        if (width) go(Math.min(Math.floor(event.offsetX / canvas.clientWidth * width), width - 1));
+        if (width) goTo(columnAt(event.offsetX, strip.clientWidth, width));
       });
     }
-    labelling.addEventListener("document", (event) => this.#ask(event.detail.fresh ? 0 : 120));
-    labelling.addEventListener("margins", () => this.drawMargins());
-    view.addEventListener("change", () => this.drawMargins());
+    labelling.on("document", ({ fresh }) => this.#ask(fresh ? 0 : SETTLING));
+    labelling.on("margins", () => this.#drawMargins());
+    view.on("change", () => this.#drawMargins());
+    const draw = () => {
+      this.#drawStrip();
+      this.#drawMargins();
+    };
+    addEventListener("resize", draw);
+    new ResizeObserver(draw).observe(this.#strip);
   }
 
-  /** Draw both, as large as they are now. */
-  draw() {
-    this.#drawStrip();
-    this.drawMargins();
-  }
-
+  /** @param {number} wait */
   #ask(wait) {
     clearTimeout(this.#timer);
     this.#timer = setTimeout(async () => {
       const turn = ++this.#turn;
-      const { id, rows } = this.#labelling.document;
-      this.#image = null;
-      if (rows) {
-        try {
-          const width = Math.min(Math.max(Math.round(this.#strip.clientWidth * (devicePixelRatio || 1)), 16), 4096);
-          const image = await picture(`api/photos/${id}/strip?width=${width}`);
-          if (turn !== this.#turn) return;
-          this.#image = image;
-        } catch {
-          // the strip is a help; what is wrong is told where the photo is read
-        }
-      }
+      const image = await this.#read();
+      if (turn !== this.#turn) return;
+      this.#image = image;
       this.#drawStrip();
     }, wait);
   }
 
+  async #read() {
+    const { document } = this.#labelling;
+    if (!document?.rows) return null;
+    const width = within(Math.round(this.#strip.clientWidth * ratio()), 16, 4096);
+    // the strip is a help; what is wrong is told where the photo is read
+    return picture(`api/photos/${document.id}/strip?width=${width}`).catch(() => null);
+  }
+
   #drawStrip() {
-    const pen = sized(this.#strip);
+    fit(this.#strip);
+    const pen = penOf(this.#strip);
     const { width, height } = this.#strip;
     pen.clearRect(0, 0, width, height);
-    if (!this.#image) return;
+    const { legend } = this.#labelling;
+    if (!this.#image || !legend) return;
     pen.imageSmoothingEnabled = false;
     pen.drawImage(this.#image, 0, 0, width, height);
-    const ratio = devicePixelRatio || 1;
-    for (const x of [6, width - 6 - 14 * ratio]) { // where the line lies
-      pen.fillStyle = "#141414";
-      pen.fillRect(x - ratio, height * 40 / 81 - 2 * ratio, 16 * ratio, 4 * ratio);
-      pen.fillStyle = "#ff2d95";
-      pen.fillRect(x, height * 40 / 81 - ratio, 14 * ratio, 2 * ratio);
+    const { line, halo } = legend.colours;
+    const one = ratio();
+    const row = height * legend.band / (2 * legend.band + 1); // where the line lies
+    for (const x of [6, width - 6 - 14 * one]) {
+      pen.fillStyle = halo;
+      pen.fillRect(x - one, row - 2 * one, 16 * one, 4 * one);
+      pen.fillStyle = line;
+      pen.fillRect(x, row - one, 14 * one, 2 * one);
     }
   }
 
-  /** Bars: the taller, the less certain; below them, which part of the photo is in sight. */
-  drawMargins() {
-    const pen = sized(this.#margin);
+  #drawMargins() {
+    fit(this.#margin);
+    const pen = penOf(this.#margin);
+    pen.clearRect(0, 0, this.#margin.width, this.#margin.height);
+    const { document, margins, legend } = this.#labelling;
+    if (document && legend) this.#paintMargins(pen, { document, margins, legend });
+  }
+
+  /**
+   * Bars: the taller, the less certain; below them, which part of the photo is in sight.
+   *
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Shown} shown
+   */
+  #paintMargins(pen, { document, margins, legend }) {
     const { width, height } = this.#margin;
-    pen.clearRect(0, 0, width, height);
-    const { document, margins } = this.#labelling;
-    if (!document) return;
-    const style = getComputedStyle(this.#margin);
-    pen.fillStyle = style.color;
-    const ratio = devicePixelRatio || 1;
-    const room = height - 7 * ratio;
-    if (margins && margins.margins.length === document.width) {
-      for (let x = 0; x < width; x++) {
-        const first = Math.floor(x * document.width / width);
-        const stop = Math.max(Math.floor((x + 1) * document.width / width), first + 1);
-        let least = Infinity;
-        for (let column = first; column < stop; column++) least = Math.min(least, margins.margins[column] ?? Infinity);
-        const unsure = Math.max(1 - least / SURE, 0) ** 2;
-        pen.fillRect(x, room * (1 - unsure), 1, room * unsure);
-      }
-    }
-    for (const [column] of document.anchors) {
-      pen.beginPath();
-      pen.arc((column + 0.5) / document.width * width, room - 3 * ratio, 3 * ratio, 0, 2 * Math.PI);
-      pen.fillStyle = "#fff";
-      pen.fill();
-      pen.strokeStyle = "#141414";
-      pen.lineWidth = ratio;
-      pen.stroke();
+    const one = ratio();
+    const room = height - 7 * one;
+    pen.fillStyle = getComputedStyle(this.#margin).color;
+    if (margins?.margins.length === document.width) {
+      uncertainty(margins.margins, width).forEach((unsure, x) => pen.fillRect(x, room * (1 - unsure), 1, room * unsure));
     }
     const [first, last] = this.#view.columns();
-    pen.fillStyle = style.color;
-    pen.fillRect(first / document.width * width, height - 4 * ratio, Math.max((last + 1 - first) / document.width * width, 4), 3 * ratio);
+    pen.fillRect(first / document.width * width, height - 4 * one, Math.max((last + 1 - first) / document.width * width, 4), 3 * one);
+    const { anchor, halo } = legend.colours;
+    for (const [column] of document.anchors) {
+      const x = (column + 0.5) / document.width * width;
+      disc(pen, [x, room - 3 * one], 3 * one, { fill: anchor, rim: halo, width: one });
+    }
   }
-}
-
-function sized(canvas) {
-  const ratio = devicePixelRatio || 1;
-  const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
-  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-  return canvas.getContext("2d");
 }

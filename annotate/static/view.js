@@ -1,9 +1,18 @@
 /** Which part of the photo is seen: zoom and pan. Screen pixels are CSS pixels. */
 
+import { Events } from "./events.js";
+import { within } from "./geometry.js";
+
+/** @import { Point } from "./geometry.js" */
+
 const LARGEST = 32; // screen pixels a pixel
 
-/** Maps pixels of the photo to the screen and back. */
-export class View extends EventTarget {
+/**
+ * Maps pixels of the photo to the screen and back. Event: `change`.
+ *
+ * @extends {Events<{change: undefined}>}
+ */
+export class View extends Events {
   scale = 1;
   left = 0;
   top = 0;
@@ -11,13 +20,23 @@ export class View extends EventTarget {
   #photo = { width: 1, height: 1 };
   #fitted = true;
 
-  /** The photo changes: show all of it. */
+  /**
+   * The photo changes: show all of it.
+   *
+   * @param {number} width
+   * @param {number} height
+   */
   show(width, height) {
     this.#photo = { width, height };
     this.fit();
   }
 
-  /** The window changes. */
+  /**
+   * The window changes.
+   *
+   * @param {number} width
+   * @param {number} height
+   */
   resize(width, height) {
     this.#size = { width, height };
     if (this.#fitted) this.fit();
@@ -31,12 +50,18 @@ export class View extends EventTarget {
     this.left = (width - this.#photo.width * this.scale) / 2;
     this.top = (height - this.#photo.height * this.scale) / 2;
     this.#fitted = true;
-    this.#tell();
+    this.tell("change");
   }
 
-  /** Zoom by a factor around a point of the screen. */
+  /**
+   * Zoom by a factor around a point of the screen.
+   *
+   * @param {number} factor
+   * @param {number} [x]
+   * @param {number} [y]
+   */
   zoom(factor, x = this.#size.width / 2, y = this.#size.height / 2) {
-    const scale = Math.min(Math.max(this.scale * factor, this.#smallest()), LARGEST);
+    const scale = within(this.scale * factor, this.#smallest(), LARGEST);
     const by = scale / this.scale;
     this.left = x - (x - this.left) * by;
     this.top = y - (y - this.top) * by;
@@ -45,14 +70,24 @@ export class View extends EventTarget {
     this.#settle();
   }
 
-  /** Move by screen pixels. */
+  /**
+   * Move by screen pixels.
+   *
+   * @param {number} x
+   * @param {number} y
+   */
   pan(x, y) {
     this.left += x;
     this.top += y;
     this.#settle();
   }
 
-  /** Bring a pixel into sight, in the middle unless it is seen already. */
+  /**
+   * Bring a pixel into sight, in the middle unless it is seen already.
+   *
+   * @param {number} column
+   * @param {number} row
+   */
   reveal(column, row) {
     const [x, y] = this.toScreen(column, row);
     const { width, height } = this.#size;
@@ -61,21 +96,36 @@ export class View extends EventTarget {
     this.#settle();
   }
 
-  /** Screen position of a point of the photo. */
+  /**
+   * Screen position of a point of the photo.
+   *
+   * @param {number} x
+   * @param {number} y
+   * @returns {Point}
+   */
   toScreen(x, y) {
     return [x * this.scale + this.left, y * this.scale + this.top];
   }
 
-  /** Column and row of the pixel under a point of the screen, within the photo. */
+  /**
+   * Column and row of the pixel under a point of the screen, within the photo.
+   *
+   * @param {number} x
+   * @param {number} y
+   * @returns {Point}
+   */
   toPixel(x, y) {
-    const inside = (value, size) => Math.min(Math.max(Math.floor(value), 0), size - 1);
     return [
-      inside((x - this.left) / this.scale, this.#photo.width),
-      inside((y - this.top) / this.scale + 0.5, this.#photo.height), // the line lies on top of a pixel
+      within(Math.floor((x - this.left) / this.scale), 0, this.#photo.width - 1),
+      within(Math.floor((y - this.top) / this.scale + 0.5), 0, this.#photo.height - 1), // the line lies on top of a pixel
     ];
   }
 
-  /** First and last column in sight. */
+  /**
+   * First and last column in sight.
+   *
+   * @returns {Point}
+   */
   columns() {
     return [this.toPixel(0, 0)[0], this.toPixel(this.#size.width, 0)[0]];
   }
@@ -86,14 +136,19 @@ export class View extends EventTarget {
   }
 
   #settle() {
-    const keep = (start, length, size) =>
-      length <= size ? (size - length) / 2 : Math.min(Math.max(start, size - length - size / 2), size / 2);
-    this.left = keep(this.left, this.#photo.width * this.scale, this.#size.width);
-    this.top = keep(this.top, this.#photo.height * this.scale, this.#size.height);
-    this.#tell();
+    this.left = settled(this.left, this.#photo.width * this.scale, this.#size.width);
+    this.top = settled(this.top, this.#photo.height * this.scale, this.#size.height);
+    this.tell("change");
   }
+}
 
-  #tell() {
-    this.dispatchEvent(new Event("change"));
-  }
+/**
+ * Where the photo begins: in the middle where it is smaller than the window, else never too far out of it.
+ *
+ * @param {number} start
+ * @param {number} length - Of the photo, on the screen.
+ * @param {number} size - Of the window.
+ */
+function settled(start, length, size) {
+  return length <= size ? (size - length) / 2 : within(start, size - length - size / 2, size / 2);
 }

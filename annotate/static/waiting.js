@@ -1,111 +1,163 @@
 /** What waits for the server, as it can be drawn before the line is known that follows from it. */
 
-const SKETCH = "#ffd400";
-const HALO = "rgb(20 20 20 / 70%)";
-const ANCHOR = 6; // radius, in screen pixels
+import { ANCHOR, BRUSHES, follow, softHalo } from "./drawing.js";
+import { isChange } from "./operations.js";
+
+/** @import { Point } from "./geometry.js" */
+/** @import { Of } from "./operations.js" */
+/** @import { Item } from "./queue.js" */
+/** @import { Colours, Operation } from "./types.js" */
+/** @import { View } from "./view.js" */
+
+/** @typedef {Pick<Of<"forbid">, "points" | "radius" | "allow">} Stroke */
+/** @typedef {{first: number, last: number, words: string}} Band */
 
 /**
- * What to draw for operations that wait: `discs` at pixels, `crosses` in columns whose anchor goes, `paths`
- * along pixels, `bands` of columns, `strokes` of the brush. What a waiting undo takes back is left out.
+ * What to draw for operations that wait.
  *
- * @param {import("./queue.js").Item[]} items - For one photo, oldest first.
+ * @typedef {object} Sketch
+ * @property {Map<number, Point>} discs - Anchors to come, by their columns.
+ * @property {Set<number>} crosses - Columns whose anchor goes.
+ * @property {Point[][]} paths
+ * @property {Band[]} bands - Columns with words about them.
+ * @property {Stroke[]} strokes - Of the brush.
+ */
+
+/** @type {{[Kind in Operation["kind"]]?: (how: Of<Kind>, found: Sketch) => void}} */
+const SKETCHES = {
+  anchor: ({ column, row }, found) => set(found, [column, row]),
+  remove: ({ column }, found) => remove(found, column),
+  move(how, found) {
+    remove(found, how.from_column);
+    set(found, [how.column, how.row]);
+  },
+  straight: (how, found) => found.paths.push([[how.column, how.row], [how.to_column, how.to_row]]),
+  drawn: ({ first, rows }, found) => found.paths.push(rows.map((row, at) => [first + at, row])),
+  hidden: ({ first, last, hidden }, found) => found.bands.push({ first, last, words: hidden ? "not visible" : "visible" }),
+  release: ({ first, last }, found) => found.bands.push({ first, last, words: "dropped" }),
+  forbid: ({ points, radius, allow }, found) => found.strokes.push({ points, radius, allow }),
+};
+
+/**
+ * What to draw for what waits. What a waiting undo takes back is left out.
+ *
+ * @param {Pick<Item, "what" | "operation">[]} items - For one photo, oldest first.
+ * @returns {Sketch}
  */
 export function sketched(items) {
-  const done = [];
-  const undone = [];
-  for (const { what, operation } of items) {
-    if (what === "undo") {
-      if (done.length) undone.push(done.pop());
-    } else if (what === "redo") {
-      if (undone.length) done.push(undone.pop());
-    } else if (operation.kind !== "tag") done.push(operation);
-  }
+  /** @type {Sketch} */
   const found = { discs: new Map(), crosses: new Set(), paths: [], bands: [], strokes: [] };
-  const remove = (column) => {
-    found.discs.delete(column);
-    found.crosses.add(column);
-  };
-  const set = (column, row) => {
-    found.crosses.delete(column);
-    found.discs.set(column, [column, row]);
-  };
-  const add = {
-    anchor: ({ column, row }) => set(column, row),
-    remove: ({ column }) => remove(column),
-    move: ({ from_column: from, column, row }) => {
-      remove(from);
-      set(column, row);
-    },
-    straight: (one) => found.paths.push([[one.column, one.row], [one.to_column, one.to_row]]),
-    drawn: ({ first, rows }) => found.paths.push(rows.map((row, at) => [first + at, row])),
-    hidden: ({ first, last, hidden }) => found.bands.push({ first, last, words: hidden ? "not visible" : "visible" }),
-    release: ({ first, last }) => found.bands.push({ first, last, words: "dropped" }),
-    forbid: ({ points, radius, allow }) => found.strokes.push({ points, radius, allow }),
-  };
-  for (const operation of done) add[operation.kind]?.(operation);
-  return { ...found, discs: [...found.discs.values()], crosses: [...found.crosses] };
+  for (const operation of standing(items)) {
+    /** @type {((how: Operation, found: Sketch) => void) | undefined} */ (SKETCHES[operation.kind])?.(operation, found);
+  }
+  return found;
 }
 
-/** Whether the line will follow when these have been sent. */
-export function changesLine(items) {
-  return items.some(({ operation }) => !["tag", "status", "open"].includes(operation?.kind));
+/**
+ * What is left of what waits when each undo and redo has done its work.
+ *
+ * @param {Pick<Item, "what" | "operation">[]} items
+ */
+function standing(items) {
+  /** @type {Operation[]} */
+  const done = [];
+  /** @type {Operation[]} */
+  const undone = [];
+  for (const item of items) {
+    if (item.operation) {
+      if (isChange(item)) done.push(item.operation);
+      continue;
+    }
+    const [from, to] = item.what === "undo" ? [done, undone] : [undone, done];
+    const last = from.pop();
+    if (last) to.push(last);
+  }
+  return done;
+}
+
+/**
+ * @param {Sketch} found
+ * @param {Point} anchor
+ */
+function set(found, anchor) {
+  found.crosses.delete(anchor[0]);
+  found.discs.set(anchor[0], anchor);
+}
+
+/**
+ * @param {Sketch} found
+ * @param {number} column
+ */
+function remove(found, column) {
+  found.discs.delete(column);
+  found.crosses.add(column);
 }
 
 /**
  * Draw it, hollow and dashed, on a canvas in screen pixels.
  *
  * @param {CanvasRenderingContext2D} pen
- * @param {ReturnType<typeof sketched>} what
- * @param {import("./view.js").View} view
- * @param {(column: number) => number | undefined} rowOf - Of the anchor in a column.
+ * @param {Sketch} sketch
+ * @param {View} view
+ * @param {Colours} colours
+ * @param {Point[]} anchors - That the photo has.
  */
-export function paintWaiting(pen, { discs, crosses, paths, bands, strokes }, view, rowOf) {
+export function paintWaiting(pen, sketch, view, colours, anchors) {
+  /**
+   * @param {Point} pixel
+   * @param {number} [down]
+   */
   const at = ([column, row], down = 0) => view.toScreen(column + 0.5, row + down);
-  const line = (points, down = 0) => {
-    pen.beginPath();
-    points.forEach((point, place) => pen[place ? "lineTo" : "moveTo"](...at(point, down)));
-  };
-  const dashed = () => {
-    for (const [colour, width] of [[HALO, 4.5], [SKETCH, 2]]) {
-      Object.assign(pen, { strokeStyle: colour, lineWidth: width });
+  const outline = () => {
+    for (const [style, width] of /** @type {[string, number][]} */ ([[softHalo(colours), 4.5], [colours.preview, 2]])) {
+      Object.assign(pen, { strokeStyle: style, lineWidth: width });
       pen.stroke();
     }
   };
-  for (const { points, radius, allow } of strokes) {
-    line(points.length > 1 ? points : [points[0], points[0]], 0.5);
-    pen.strokeStyle = allow ? "rgb(255 255 255 / 35%)" : "rgb(0 0 0 / 55%)";
+  for (const { points, radius, allow } of sketch.strokes) {
+    pen.beginPath();
+    follow(pen, [...points, points[points.length - 1]].map((point) => at(point, 0.5))); // one point is a dot
+    pen.strokeStyle = allow ? BRUSHES.allow : BRUSHES.forbid;
     pen.lineWidth = (2 * radius + 1) * view.scale;
     pen.stroke();
   }
   pen.setLineDash([3, 4]);
-  for (const path of paths) {
-    line(path);
-    dashed();
-  }
-  for (const { first, last, words } of bands) {
-    const [left, right] = [view.toScreen(first, 0)[0], view.toScreen(last + 1, 0)[0]];
+  for (const path of sketch.paths) {
     pen.beginPath();
-    pen.rect(left, 4, right - left, 18);
-    dashed();
-    pen.fillStyle = SKETCH;
-    pen.font = "12px sans-serif";
-    pen.fillText(words, left + 6, 17, Math.max(right - left - 12, 1));
+    follow(pen, path.map((point) => at(point)));
+    outline();
   }
+  for (const band of sketch.bands) paintBand(pen, band, view, colours, outline);
   pen.setLineDash([]);
-  for (const disc of discs) {
+  for (const anchor of sketch.discs.values()) {
     pen.beginPath();
-    pen.arc(...at(disc), ANCHOR, 0, 2 * Math.PI);
-    dashed();
+    pen.arc(...at(anchor), ANCHOR, 0, 2 * Math.PI);
+    outline();
   }
-  for (const column of crosses) {
-    const row = rowOf(column);
-    if (row === undefined) continue;
-    const [x, y] = at([column, row]);
+  for (const anchor of anchors.filter(([column]) => sketch.crosses.has(column))) {
+    const [x, y] = at(anchor);
     pen.beginPath();
-    for (const side of [-1, 1]) {
-      pen.moveTo(x - ANCHOR, y - side * ANCHOR);
-      pen.lineTo(x + ANCHOR, y + side * ANCHOR);
+    for (const side of [-ANCHOR, ANCHOR]) {
+      pen.moveTo(x - ANCHOR, y - side);
+      pen.lineTo(x + ANCHOR, y + side);
     }
-    dashed();
+    outline();
   }
+}
+
+/**
+ * @param {CanvasRenderingContext2D} pen
+ * @param {Band} band
+ * @param {View} view
+ * @param {Colours} colours
+ * @param {() => void} outline
+ */
+function paintBand(pen, { first, last, words }, view, colours, outline) {
+  const [left, right] = [view.toScreen(first, 0)[0], view.toScreen(last + 1, 0)[0]];
+  pen.beginPath();
+  pen.rect(left, 4, right - left, 18);
+  outline();
+  pen.fillStyle = colours.preview;
+  pen.font = "12px sans-serif";
+  pen.fillText(words, left + 6, 17, Math.max(right - left - 12, 1));
 }

@@ -14,7 +14,8 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from annotate.engine.edits import Edits, Span, SpanKind, Stroke
 from annotate.store.history import State, Step
-from annotate.store.operations import Change, Status
+from annotate.store.labels import Status
+from annotate.store.operations import Change
 
 EVERY = 100
 """Operations of a label from one checkpoint to the next."""

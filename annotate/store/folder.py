@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from skyline_viz.datasets.layouts import is_truth_folder, without_truths
+from skyline_viz.datasets.matching import is_truth_folder, without_truths
 from skyline_viz.photo import find_photos
 from skyline_viz.picture_files.kinds import left_out
 from skyline_viz.picture_files.listing import find_unread

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 from pydantic import ValidationError
 
 from annotate.engine.edits import EditError, Edits
+from annotate.store.labels import Status
 from annotate.store.lines import Line
 from annotate.store.operations import (
     LOGGED,
@@ -25,7 +26,6 @@ from annotate.store.operations import (
     Redo,
     SetStatus,
     SetTag,
-    Status,
     Undo,
 )
 

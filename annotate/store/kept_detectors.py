@@ -10,8 +10,8 @@ from skyline_viz import __version__
 from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
 from skyline_viz.method import Method
-from skyline_viz.methods.method_files import header_of
-from skyline_viz.methods.plugins import as_method
+from skyline_viz.methods.finding.method_files import header_of
+from skyline_viz.methods.finding.plugins import as_method
 from skyline_viz.methods.registry import load_method, method_digest
 from skyline_viz.system import headed_npz
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -11,8 +11,11 @@ import numpy.typing as npt
 from skyline_viz.arrays import read_only
 from skyline_viz.skyline import Skyline
 
-STATUSES = ("to do", "in progress", "accepted", "needs review", "rejected")
+Status: TypeAlias = Literal["to do", "in progress", "accepted", "needs review", "rejected"]
 """How far a photo is."""
+
+STATUSES: tuple[Status, ...] = get_args(Status)
+"""All of them."""
 
 TAGS = ("no visible skyline", "not left to right", "needs terrain data")
 """Tags that are offered; annotators add their own."""

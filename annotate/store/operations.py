@@ -11,7 +11,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Field, Strict, TypeAdapter
 
 from annotate.engine.edits import Edits
-from annotate.store.labels import STATUSES
+from annotate.store.labels import Status
 
 Place: TypeAlias = Annotated[int, Field(ge=-100_000, le=100_000)]
 """A row or a column; whether it lies inside the photo is checked against the photo."""
@@ -21,11 +21,6 @@ Point: TypeAlias = Annotated[tuple[Place, Place], Strict(False)]
 
 Points: TypeAlias = Annotated[list[Point], Field(min_length=1, max_length=5000)]
 """Column and row of each point of a stroke."""
-
-Status: TypeAlias = Literal["to do", "in progress", "accepted", "needs review", "rejected"]
-"""How far a photo is."""
-
-assert Status.__args__ == STATUSES  # type: ignore[attr-defined]
 
 
 class _Operation(BaseModel):

@@ -11,12 +11,13 @@ import sqlite3
 import threading
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from time import time
 from typing import Any
 
 from annotate.store import standings
+from annotate.store.cards import Card, cards_of, labels_of_pass
 from annotate.store.database import (
     NAME,
     Place,
@@ -56,26 +57,7 @@ from annotate.store.standings import Standing
 from skyline_viz.method import Method
 from skyline_viz.photo import PhotoError
 
-__all__ = ["Card", "Photo", "StaleError", "State", "Store"]
-
-
-@dataclass(frozen=True)
-class Card:
-    """A label in short, as lists show it."""
-
-    photo: Photo
-    label: int | None
-    """Its id; None where nobody has begun."""
-
-    status: str
-    tags: tuple[str, ...]
-    margin: float | None
-    """How sure the detector was of its proposal; None where there is none yet."""
-
-    blind: bool
-    seconds: float
-    problem: str = ""
-    """A sentence that says why its log cannot be read, if so."""
+__all__ = ["Photo", "StaleError", "State", "Store"]
 
 
 class Store:
@@ -310,21 +292,11 @@ class Store:
     def cards(self, annotator: str, number: int) -> dict[int, Card]:
         """Labels of a pass in short, by the id of their photo, for all photos."""
         fresh = self._missing_standings()
+        photos = self.photos()
         with self._reading() as database:
-            labels = database.execute(
-                "SELECT photo, id, margin, blind FROM labels WHERE annotator = ? AND number = ?",
-                (annotator, number),
-            ).fetchall()
+            of_pass = labels_of_pass(database, annotator, number)
             stand = standings.kept(database, annotator, number) | fresh
-        begun = {photo: rest for photo, *rest in labels}
-        cards = {}
-        for photo in self.photos():
-            label, margin, blind = begun.get(photo.id, (None, None, False))
-            one = stand.get(label or 0, Standing())
-            if label in self._unreadable:  # its standing may look well all the same
-                one = Standing("needs review", problem=self._unreadable[label])
-            cards[photo.id] = Card(photo, label, margin=margin, blind=bool(blind), **vars(one))
-        return cards
+        return cards_of(photos, of_pass, stand, self._unreadable)
 
     def passes(self) -> list[tuple[str, int]]:
         """Annotators and their passes, by name."""

@@ -8,8 +8,9 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from annotate.store.store import Photo
+from skyline_viz.diagnosis.causes import Cause
 
-CAUSE = "truth doubtful"
+CAUSE: Cause = "truth doubtful"
 """The cause of segments whose annotation is to be checked."""
 
 

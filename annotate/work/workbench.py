@@ -10,8 +10,9 @@ from typing import Literal
 
 import numpy as np
 
+from annotate.store.cards import Card
 from annotate.store.opened import read_whole
-from annotate.store.store import Card, Photo, Store
+from annotate.store.store import Photo, Store
 from annotate.work import images
 from annotate.work.doubts import columns_of
 from annotate.work.joined import Joined, joined

@@ -9,7 +9,6 @@ import os
 import random
 import re
 import signal
-import subprocess
 import tempfile
 import threading
 from collections import Counter
@@ -20,11 +19,11 @@ from pathlib import Path
 from benchmarks.reliability import Trial
 from testing.browser import Page, chromium
 from testing.labelling import write_hills
+from testing.node import tested
 from testing.restarts import Restarted, kept
 
 SIZE = {"height": 240, "width": 400}
 SCHEDULES = 2000
-NODE = Path(__file__).parents[2] / "tests" / "page"
 
 
 @dataclass
@@ -149,13 +148,7 @@ def told(kind, body) -> tuple[str | int, ...]:
 
 def schedules() -> Trial:
     """The page's queue in Node, before a network and a server that do what they like."""
-    done = subprocess.run(
-        ["node", "--test", "--test-reporter=tap", str(NODE)],
-        env={**os.environ, "SCHEDULES": str(SCHEDULES)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = tested("schedules", "--test-reporter=tap", SCHEDULES=str(SCHEDULES))
     found = re.search(r"# (\d+) clicks, (\{.*\})", done.stdout)
     counts = json.loads(found[2])
     return Trial(

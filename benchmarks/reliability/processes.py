@@ -13,7 +13,8 @@ from time import sleep
 
 from benchmarks.reliability import Trial
 from skyline_viz.running.resume import FOLDER
-from testing.ends import CASES, SERVING, ended, started, until, write_set
+from testing import until
+from testing.ends import CASES, SERVING, ended, started, write_set
 from testing.full import COMMANDS, fault_of
 
 _HUNG_UP = ("detect", "evaluate", "gallery", "open")

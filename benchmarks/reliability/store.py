@@ -25,9 +25,8 @@ from annotate.store.lines import Line
 from annotate.store.store import Store
 from benchmarks.reliability import Trial
 from skyline_viz.skyline import Skyline
-from testing.labelling import asked, write_hills
-from tests.annotate.server.test_crash import started
-from tests.annotate.store.test_history import (
+from testing.labelling import asked, started, write_hills
+from testing.logs import (
     EMPTY,
     edits,
     known_to_version_1,

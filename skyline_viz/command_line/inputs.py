@@ -8,7 +8,8 @@ from pathlib import Path
 
 from skyline_viz.command_line.messages import UsageError, counted, listed, say, say_last
 from skyline_viz.command_line.truth_options import Truths
-from skyline_viz.datasets.layouts import TRUTH_FOLDERS, Dataset, DatasetItem, truth_names
+from skyline_viz.datasets.layouts import Dataset, DatasetItem, truth_names
+from skyline_viz.datasets.matching import TRUTH_FOLDERS
 from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.running.batch import Failure
 from skyline_viz.system.names import shortened

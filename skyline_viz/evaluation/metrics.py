@@ -14,6 +14,11 @@ def column_errors(skyline: Skyline, truth: Skyline) -> F64:
 
     Raises:
         SkylineError: The widths differ.
+
+    Examples:
+        >>> hidden = Skyline(rows=[4, 4, 4], visible=[True, False, True])
+        >>> column_errors(Skyline(rows=[4, 5, 6]), hidden)
+        array([ 0., nan,  2.])
     """
     if skyline.width != truth.width:
         raise SkylineError(
@@ -24,13 +29,20 @@ def column_errors(skyline: Skyline, truth: Skyline) -> F64:
 
 
 def a_err(skyline: Skyline, truth: Skyline) -> float:
-    """Average pixel-wise absolute distance, in pixels (the paper's ``A_err``).
+    r"""Average pixel-wise absolute distance, in pixels (equation 27 of the paper).
 
-    >>> a_err(Skyline(rows=[4, 5, 6]), Skyline(rows=[4, 4, 4]))
-    1.0
+    $$
+    A_{err} = \frac{1}{N} \sum_{j=1}^{N} | P_{d(j)} - P_{g(j)} |
+    $$
+
+    The sum runs over the columns visible in both.
 
     Raises:
         SkylineError: The widths differ, or no column is visible in both.
+
+    Examples:
+        >>> a_err(Skyline(rows=[4, 5, 6]), Skyline(rows=[4, 4, 4]))
+        1.0
     """
     errors = column_errors(skyline, truth)
     errors = errors[~np.isnan(errors)]
@@ -44,6 +56,10 @@ def segmentation_accuracy(skyline: Skyline, truth: Skyline, height: int) -> floa
 
     Raises:
         SkylineError: The widths differ, a row lies outside `height`, or nothing is visible.
+
+    Examples:
+        >>> segmentation_accuracy(Skyline(rows=[4, 5, 6]), Skyline(rows=[4, 4, 4]), height=10)
+        0.9
     """
     whole = [
         Skyline(line.pixel_rows(height).astype(np.float32), line.visible)
@@ -53,5 +69,10 @@ def segmentation_accuracy(skyline: Skyline, truth: Skyline, height: int) -> floa
 
 
 def is_gross_miss(error: float, height: int) -> bool:
-    """Whether an A_err in pixels is over 5 % of the image height in pixels."""
+    """Whether an A_err in pixels is over 5 % of the image height in pixels.
+
+    Examples:
+        >>> is_gross_miss(20.0, height=519), is_gross_miss(30.0, height=519)
+        (False, True)
+    """
     return error > GROSS_MISS_SHARE * height

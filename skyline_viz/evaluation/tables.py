@@ -202,7 +202,7 @@ def table_5(measured: Mapping[str, Compared], folds: int) -> Table:
         "Segmentation accuracy, and A_err in pixels",
         ("method", "data set", "trained on", "accuracy", "mean", "st. dev."),
         tuple(rows),
-        ("Published rows are over other photos; the networks there were pretrained on ImageNet.",),
+        ("Published rows are over other photos, with networks that were pretrained on ImageNet.",),
     )
 
 
@@ -233,8 +233,8 @@ def table_6(timings: Sequence[Timing], fitted: Mapping[str, Method]) -> Table:
         ("method", "model (MB)", "time (s)", "time / ours"),
         tuple(rows),
         (
-            "Measured in one run on one core of this machine; published on a 1.8 GHz Core i5.",
-            "What is learned as it lies in memory; networks as the file that is run.",
+            "Measured in one run on one core of this machine. Published on a 1.8 GHz Core i5.",
+            "Learned models as they lie in memory, networks as the file that is run.",
         ),
     )
 

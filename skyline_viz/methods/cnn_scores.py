@@ -83,7 +83,7 @@ class CnnScores(DenseScores):
         return "cnn-dcsi"
 
     def learn(self, items: Sequence[DatasetItem], seed: int) -> Model:
-        """See `protocol.Learner.fit`; needs PyTorch and ONNX."""
+        """See `method.Learner.fit`; needs PyTorch and ONNX."""
         torch = needed("torch", "deep", self.name)
         onnx = needed("onnx", "deep", self.name)
         seen: list[F32] = []

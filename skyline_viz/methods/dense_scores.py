@@ -48,7 +48,7 @@ class SvmScores(DenseScores):
         return "svm-dcsi"
 
     def learn(self, items: Sequence[DatasetItem], seed: int) -> Model:
-        """See `protocol.Learner.fit`; needs scikit-learn."""
+        """See `method.Learner.fit`; needs scikit-learn."""
         svm = needed("sklearn.svm", "methods", self.name)
         linear = needed("sklearn.linear_model", "methods", self.name)
         forms: list[F32] = []

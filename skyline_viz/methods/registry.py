@@ -8,8 +8,8 @@ from pathlib import Path
 from skyline_viz.detector import Detector
 from skyline_viz.filter_bank import FilterBank, FilterBankError
 from skyline_viz.method import Configurable, LearnedMethod, MethodError
-from skyline_viz.methods.importing import class_at, offered
-from skyline_viz.methods.method_files import (
+from skyline_viz.methods.finding.importing import class_at, offered
+from skyline_viz.methods.finding.method_files import (
     Trained,
     load_method,
     make_method,
@@ -17,10 +17,10 @@ from skyline_viz.methods.method_files import (
     model_bytes,
     save_method,
 )
+from skyline_viz.methods.finding.plugins import PluggedLearner, plug_in
+from skyline_viz.methods.finding.specs import Spec, parse
 from skyline_viz.methods.names import NAMES
-from skyline_viz.methods.plugins import PluggedLearner, plug_in
 from skyline_viz.methods.sky_network import SkyNetwork
-from skyline_viz.methods.specs import Spec, parse
 from skyline_viz.settings import from_texts, meant, name_with
 from skyline_viz.system.headed_npz import NpzError, opened
 from skyline_viz.system.notes import note

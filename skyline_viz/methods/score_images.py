@@ -2,14 +2,14 @@
 
 A classifier looks at the 16x16 grey pixels around every pixel of a photo and says how much it
 looks like skyline: the dense score ``S(i, j)`` in [0, 1], 1 for skyline. The paper's nodal cost
-``Psi = S`` (equation 15) takes the lowest score for the best; here it is ``1 - S``.
+``Psi = S`` (equation 14) takes the lowest score for the best; here it is ``1 - S``.
 
 =============  =========================================================================
 ending         nodal cost
 =============  =========================================================================
 ``dcsi``       ``1 - S`` of every pixel
 ``mdcsi``      ``1 - S`` of the best m pixels of each column; the others are ruled out
-``gradient``   ``w2 (1 - S) + (1 - w2) G_r`` of every pixel (equation 14 with the dense score)
+``gradient``   ``w2 (1 - S) + (1 - w2) G_r`` of every pixel (equation 13 with the dense score)
 ``msee``       ``w3 (1 - S) + (1 - w3) (1 - E)``, with ``E`` = 1 on MSEE edges
 ``canny``      the same with ``E`` = 1 on Canny edges of the grey photo
 =============  =========================================================================
@@ -111,7 +111,7 @@ class DenseScores(LearnedMethod):
         raise NotImplementedError
 
     def detect(self, photo: U8) -> Detection:
-        """See `protocol.Method.detect`."""
+        """See `method.Method.detect`."""
         check_photo(photo)
         seconds: dict[str, float] = {}
         with timed(seconds, "scores"):

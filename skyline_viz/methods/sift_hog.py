@@ -1,4 +1,4 @@
-"""SIFT and HOG around stable edges, classified (Ahmad et al., 2013 to 2015; equations 8 to 14).
+"""SIFT and HOG around stable edges, classified (Ahmad et al., 2013 to 2015; equations 8 to 13).
 
 A linear support vector machine tells stable edges (`stable_edges`) on skylines from others by
 their descriptors (`descriptors`). Edges that it calls skyline are nodes of Lie's graph, gaps are
@@ -7,7 +7,7 @@ costs:
 
 * `SiftHogEdges`: all the same, ``l`` (equation 10);
 * `SiftHogScores`: the more the lower its score, ``1 - S`` (equation 11, where ``S`` is a cost);
-* `SiftHogScoresGradient`: ``w2 (1 - S) + (1 - w2) G_r`` (equation 14).
+* `SiftHogScoresGradient`: ``w2 (1 - S) + (1 - w2) G_r`` (equation 13).
 
 The papers give neither the kernel nor the size of descriptors. A linear kernel finds 98 % of the
 stable edges on the truth of photos that it has not seen and lets 1 % of the others pass, and keeps
@@ -120,7 +120,7 @@ class SiftHog(LearnedMethod):
         return {"weights": (LENGTH,), "bias": (1,)}
 
     def detect(self, photo: U8) -> Detection:
-        """Find the skyline of a photo ``(H, W, 3)`` uint8 RGB; see `protocol.Method.detect`."""
+        """Find the skyline of a photo ``(H, W, 3)`` uint8 RGB; see `method.Method.detect`."""
         check_photo(photo)
         weights, bias = self.part("weights"), self.part("bias")
         seconds: dict[str, float] = {}

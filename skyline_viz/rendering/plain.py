@@ -112,6 +112,8 @@ def _ripples(site: _Site) -> F32:
 def _stones(site: _Site, height: F32) -> F32:
     """Put stones onto the ground, in place, and tell where they are, 0 to 1."""
     stones: F32 = np.zeros_like(height)
+    if not site.spec.rocks:
+        return stones
     for size, share in ((19, 0.04), (9, 0.1), (4.5, 0.18), (2.2, 0.25)):
         bend = site.fractal(size * 0.6, size * 0.12, 0.6) * (size * 0.13)
         place = (site.x + bend, site.y - bend)

@@ -4,7 +4,7 @@
         log_detection(recording, detection, truth)
 
 Everything goes to the recording that is passed in; there is no global one. Where things are is
-written in `skyline_viz.entities`. Coordinates are Rerun's: the pixel in row r and column c covers
+written in `viewer.entities`. Coordinates are Rerun's: the pixel in row r and column c covers
 x from c to c + 1 and y from r to r + 1; a skyline, the upper side of the first terrain pixels, lies
 at y = row.
 """
@@ -188,7 +188,7 @@ def log_stages(
 ) -> None:
     """Log the stages of another detector, whatever they are, for the same views.
 
-    Names that `skyline_viz.entities` knows, such as ``"edges"`` or ``"tensor/strength"``, appear
+    Names that `viewer.entities` knows, such as ``"edges"`` or ``"tensor/strength"``, appear
     where ours do; others get a view of their own from `blueprints.stages_blueprint`.
 
     Args:

@@ -1,15 +1,13 @@
 """The page's JavaScript that needs no browser, under Node."""
 
-import shutil
-import subprocess
-from pathlib import Path
+import pytest
 
-TESTS = Path(__file__).parents[1] / "page"
+from testing.node import PAGE, tested
 
 
-def test_the_queue_of_the_page_and_what_it_stands_on():
-    node = shutil.which("node")
-    assert node is not None, "Node is missing; tools/setup.sh dev installs it"
-    files = sorted(map(str, TESTS.glob("*.test.mjs")))
-    done = subprocess.run([node, "--test", *files], capture_output=True, text=True, check=False)
+@pytest.mark.parametrize(
+    "name", sorted(file.name.removesuffix(".test.mjs") for file in PAGE.glob("*.test.mjs"))
+)
+def test_the_modules_of_the_page(name):
+    done = tested(name)
     assert done.returncode == 0, done.stdout

@@ -1,30 +1,13 @@
 """``skyline-viz inspect`` and ``gallery`` on the command line, without a viewer."""
 
-import json
-
 import numpy as np
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.cli import main
 from skyline_viz.viewer import entities
 from testing.recordings import Read, verify
 
 PHOTO = "hills/images/h0.png"
-
-
-@pytest.fixture
-def say(tmp_path, monkeypatch, capsys):
-    """Run a command line in an empty folder: status, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("CI", "1")
-
-    def run(*words):
-        status = main([str(word) for word in words])
-        said = capsys.readouterr()
-        return status, said.out, said.err
-
-    return run
 
 
 @pytest.fixture
@@ -176,19 +159,6 @@ def test_what_makes_no_sense_is_one_sentence(say, words, reason):
     assert (status, out) == (2, "")
     assert reason in err
     assert err.count("\n") == 1
-
-
-def test_a_cause_that_there_is_not(say, hills, tmp_path):
-    words = ["gallery", hills, "--out", "g", "--screenshot", "a.png", "--cause"]
-    status, out, err = say(*words, "fog")
-    assert (status, out) == (2, "")
-    assert "invalid choice 'fog'" in err
-    assert not (tmp_path / "g").exists()
-    status, _, err = say(*words, "starved bin")
-    assert status == 1
-    assert err == "skyline-viz: none of 5 photos with a truth has the cause starved bin.\n"
-    assert not (tmp_path / "a.png").exists()
-    assert len(json.loads((tmp_path / "g" / "gallery.json").read_text())["photos"]) == 5
 
 
 def test_a_viewer_that_does_not_answer(say, hills):

@@ -1,9 +1,7 @@
 """Opening data sets: the published layouts, plain folders, and everything that does not fit."""
 
 import dataclasses
-import json
 import os
-import shutil
 
 import numpy as np
 import pytest
@@ -12,69 +10,23 @@ from PIL import Image
 import skyline_viz as sv
 from skyline_viz import photo
 from skyline_viz.datasets import layouts as datasets
+from skyline_viz.datasets import matching
 from skyline_viz.datasets.layouts import DatasetError
-
-HEIGHT, WIDTH = 16, 24
-ROWS = np.arange(WIDTH) % 5 + 4
-SKYLINE = sv.Skyline(ROWS)
-PHOTO = np.full((HEIGHT, WIDTH, 3), (90, 120, 150), np.uint8)
-PHOTO[SKYLINE.to_mask(HEIGHT)] = (200, 210, 230)
-PAINTED = SKYLINE.to_painted(PHOTO, "red")
-MASK = np.where(SKYLINE.to_mask(HEIGHT), 0, 255).astype(np.uint8)
-NOISE = np.random.default_rng(0).integers(0, 256, (HEIGHT, WIDTH, 3), np.uint8)
-
-
-def put(path, pixels=PHOTO, **options):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    Image.fromarray(np.ascontiguousarray(pixels)).save(path, **options)
-    return path
-
-
-def names(dataset):
-    return [item.name for item in dataset]
-
-
-def only(dataset):
-    assert len(dataset) == 1
-    assert dataset.problems == ()
-    return dataset.items[0]
-
-
-def basalt(root, count=3):
-    for number in range(1, count + 1):
-        put(root / "images" / f"marsim{number:04}.pgm", PHOTO[:, :, 1])
-        line = sv.Skyline(np.full(WIDTH, number)).to_painted(NOISE)
-        put(root / "ground_truth" / f"GT_marsim{number:03}_Edge.bmp", line)
-
-
-def web(root, count=3):
-    for number in range(1, count + 1):
-        put(root / "images" / f"R_GImag{number:04}.bmp")
-        line = sv.Skyline(np.full(WIDTH, number)).to_painted(NOISE, "blue")
-        put(root / "ground_truth" / f"GT_GoogleImage{number:03}_Edge.bmp", line)
-
-
-def ch1(root):
-    for part, name in [("cvg", "IMG_1.jpg"), ("panoramio", "IMG_1.jpg"), ("cvg", "b.png")]:
-        stem, ending = name.split(".")
-        put(root / part / "images" / name)
-        put(root / part / "ground_truth" / f"{stem}-mask.{ending}", MASK)
-    put(root / "poor_edge_images" / "images" / "c.jpg")
-
-
-def geopose3k(root):
-    sky = SKYLINE.to_mask(HEIGHT)
-    labels = np.where(sky[:, :, None], 0, np.array([97, 89, 87])).astype(np.uint8)
-    labels[12:, :, :] = (118, 219, 99)
-    alpha = np.full((HEIGHT, WIDTH, 1), 255, np.uint8)
-    put(root / "flickr_1@N00" / "photo.jpg")
-    put(root / "flickr_1@N00" / "labels.png", labels)
-    put(root / "flickr_2@N00" / "photo.jpeg")
-    put(root / "flickr_2@N00" / "pinhole" / "labels_crop.png", np.dstack([labels, alpha]))
-    put(root / "flickr_2@N00" / "cyl" / "labels_crop.png", labels[:10])
-    put(root / "flickr_3@N00" / "photo.jpg")
-    (root / "README.txt").touch()
-
+from testing.datasets import (
+    HEIGHT,
+    MASK,
+    PHOTO,
+    ROWS,
+    SKYLINE,
+    WIDTH,
+    basalt,
+    ch1,
+    geopose3k,
+    names,
+    only,
+    put,
+    web,
+)
 
 # The interface
 
@@ -136,19 +88,6 @@ def test_web(tmp_path, folder):
     assert names(dataset) == ["R_GImag0001", "R_GImag0002", "R_GImag0003"]
     for number, item in enumerate(dataset, start=1):
         assert item.truth() == sv.Skyline(np.full(WIDTH, number))
-
-
-def test_numbers_are_matched_and_not_positions(tmp_path):
-    web(tmp_path, count=4)
-    (tmp_path / "ground_truth" / "GT_GoogleImage002_Edge.bmp").unlink()
-    (tmp_path / "images" / "R_GImag0003.bmp").unlink()
-    dataset = sv.open_dataset(tmp_path)
-    first, second, fourth = dataset
-    assert first.truth() == sv.Skyline(np.full(WIDTH, 1))
-    assert second.truth() is None
-    assert fourth.truth() == sv.Skyline(np.full(WIDTH, 4))
-    truth = os.path.join("ground_truth", "GT_GoogleImage003_Edge.bmp")  # noqa: PTH118
-    assert dataset.problems == (f"{truth} has no photo.",)
 
 
 @pytest.mark.parametrize("folder", ["CH1", "."])
@@ -248,74 +187,10 @@ def test_several_data_sets_in_one_folder(tmp_path):
 # Plain folders
 
 
-@pytest.mark.parametrize("photos", ["images", "IMAGES", "."])
-@pytest.mark.parametrize("truths", ["masks", "ground_truth", "Masks"])
-@pytest.mark.parametrize("added", ["", "-mask", "_mask", "_Edge", "-MASK"])
-def test_where_a_truth_may_lie_and_how_it_may_be_called(tmp_path, photos, truths, added):
-    put(tmp_path / photos / "a b.PNG")
-    put(tmp_path / truths / f"a b{added}.Bmp", PAINTED)
-    item = only(sv.open_dataset(tmp_path))
-    assert item.name == "a b"
-    assert item.truth() == SKYLINE
-
-
-@pytest.mark.parametrize("photos", ["images", "."])
-@pytest.mark.parametrize("name", ["a-mask.png", "a_mask.jpg", "a_Edge.bmp", "a_edge.png"])
-def test_a_picture_beside_the_photo(tmp_path, photos, name):
-    put(tmp_path / photos / "a.jpg")
-    put(tmp_path / photos / name, MASK, **({"quality": 100} if name.endswith("jpg") else {}))
-    item = only(sv.open_dataset(tmp_path))
-    assert item.photo_path.name == "a.jpg"
-    assert item.truth() == SKYLINE
-
-
-@pytest.mark.parametrize("place", ["images", "masks", "ground_truth"])
-@pytest.mark.parametrize("ending", ["csv", "json", "CSV", "JSON"])
-def test_a_skyline_file(tmp_path, place, ending):
-    truth = sv.Skyline(ROWS + 0.25, np.arange(WIDTH) > 3)
-    put(tmp_path / "images" / "a.jpg")
-    (tmp_path / place).mkdir(exist_ok=True)
-    write = truth.write_csv if ending.lower() == "csv" else truth.write_json
-    write(tmp_path / place / f"a.{ending}")
-    assert only(sv.open_dataset(tmp_path)).truth() == truth
-
-
-def test_other_tables_beside_photos_are_nobodys_truth(tmp_path):
-    put(tmp_path / "a.jpg")
-    put(tmp_path / "b.jpg")
-    (tmp_path / "a.csv").write_text("latitude,longitude\n46.5,8.0\n")
-    (tmp_path / "a.json").write_text(json.dumps({"version": "5.0", "shapes": []}))
-    (tmp_path / "photos.csv").write_text("name\na\nb\n")
-    dataset = sv.open_dataset(tmp_path)
-    assert [item.truth() for item in dataset] == [None, None]
-    assert dataset.problems == ()
-
-
-def test_a_closed_table_beside_photos_is_nobodys_truth(tmp_path, monkeypatch):
-    put(tmp_path / "a.jpg")
-    SKYLINE.write_csv(tmp_path / "a.csv")
-    real = type(tmp_path).open
-
-    def closed(path, *args, **kwargs):
-        if path.suffix == ".csv":
-            raise PermissionError(13, "Permission denied")
-        return real(path, *args, **kwargs)
-
-    monkeypatch.setattr(type(tmp_path), "open", closed)
-    assert only(sv.open_dataset(tmp_path)).truth() is None
-
-
 def test_items_are_sorted_by_name_and_not_by_file(tmp_path):
     for name in ("a-b.jpg", "a.jpg", "B.jpg", "a1.jpg"):
         put(tmp_path / name)
     assert names(sv.open_dataset(tmp_path)) == ["B", "a", "a-b", "a1"]
-
-
-def test_a_photo_called_knife_edge_is_a_photo(tmp_path):
-    put(tmp_path / "knife_edge.jpg")
-    assert names(sv.open_dataset(tmp_path)) == ["knife_edge"]
-    put(tmp_path / "masks" / "knife_edge.png", MASK)
-    assert only(sv.open_dataset(tmp_path)).truth() == SKYLINE
 
 
 def test_photos_of_one_stem_keep_their_endings(tmp_path):
@@ -365,69 +240,6 @@ def test_the_folder_may_be_here(tmp_path, monkeypatch):
 
 
 # What does not fit
-
-
-def test_truths_without_photo_are_named_and_the_rest_goes_on(tmp_path):
-    put(tmp_path / "images" / "a.png")
-    put(tmp_path / "masks" / "a.png", MASK)
-    put(tmp_path / "masks" / "lost.png", MASK)
-    put(tmp_path / "images" / "alone-mask.png", MASK)
-    SKYLINE.write_csv(tmp_path / "ground_truth" / "gone.csv")
-    SKYLINE.write_json(tmp_path / "images" / "nobody.json")
-    dataset = sv.open_dataset(tmp_path)
-    assert names(dataset) == ["a"]
-    assert dataset.items[0].truth() == SKYLINE
-    assert len(dataset.problems) == 4
-    for name in ("lost.png", "alone-mask.png", "gone.csv", "nobody.json"):
-        assert sum(name in problem for problem in dataset.problems) == 1
-    assert all(problem.endswith(" has no photo.") for problem in dataset.problems)
-
-
-@pytest.mark.parametrize("kind", ["mask", "painted", "csv", "json"])
-def test_a_truth_of_another_size_is_named_and_left_out(tmp_path, kind):
-    put(tmp_path / "images" / "a.png")
-    put(tmp_path / "images" / "b.png")
-    put(tmp_path / "masks" / "b.png", MASK)
-    if kind == "mask":
-        put(tmp_path / "masks" / "a.png", MASK[:12])
-    elif kind == "painted":
-        put(tmp_path / "masks" / "a.png", PAINTED[:, :20])
-    else:
-        short = sv.Skyline(ROWS[:20])
-        (short.write_csv if kind == "csv" else short.write_json)(tmp_path / "masks" / f"a.{kind}")
-    dataset = sv.open_dataset(tmp_path)
-    assert [item.truth() for item in dataset] == [None, SKYLINE]
-    (problem,) = dataset.problems
-    sizes = {
-        "mask": ("24x12 pixels", "24x16"),
-        "painted": ("20x16 pixels", "24x16"),
-        "csv": ("20 columns", "24"),
-        "json": ("20 columns", "24"),
-    }
-    found, wanted = sizes[kind]
-    assert f"a.{'png' if kind in ('mask', 'painted') else kind} has {found}" in problem
-    assert problem.endswith(f"and its photo {wanted}.")
-
-
-def test_sizes_are_those_of_the_upright_photo(tmp_path):
-    exif = Image.Exif()
-    exif[0x0112] = 6
-    put(tmp_path / "a.jpg", np.rot90(PHOTO), exif=exif)
-    put(tmp_path / "masks" / "a.png", MASK)
-    item = only(sv.open_dataset(tmp_path))
-    assert item.photo().shape == PHOTO.shape
-    assert item.truth() == SKYLINE
-
-
-def test_of_several_truths_the_most_exact_counts(tmp_path):
-    put(tmp_path / "a.jpg")
-    put(tmp_path / "ground_truth" / "a_Edge.bmp", sv.Skyline(ROWS + 1).to_painted(NOISE))
-    SKYLINE.write_csv(tmp_path / "masks" / "a.csv")
-    dataset = sv.open_dataset(tmp_path)
-    assert dataset.items[0].truth() == SKYLINE
-    (problem,) = dataset.problems
-    assert "a_Edge.bmp is not used" in problem
-    assert "a.csv is there" in problem
 
 
 @pytest.mark.parametrize("name", ["a.png", "a.jpg", "a.bmp", "a.csv", "a.json"])
@@ -502,7 +314,7 @@ def test_a_folder_that_may_not_be_listed(tmp_path, monkeypatch):
     def closed(folder):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(datasets, "_folders", closed)
+    monkeypatch.setattr(datasets, "folders_in", closed)
     with pytest.raises(DatasetError, match="cannot be read: permission denied"):
         sv.open_dataset(tmp_path)
 
@@ -517,103 +329,10 @@ def test_a_closed_folder_inside_does_not_stop_the_rest(tmp_path, monkeypatch):
             raise PermissionError(13, "Permission denied")
         return find(folder)
 
-    monkeypatch.setattr(datasets, "find_photos", guarded)
+    for module in (datasets, matching):
+        monkeypatch.setattr(module, "find_photos", guarded)
     monkeypatch.setattr(os, "access", lambda path, mode: path.name != "lost+found")
     assert names(sv.open_dataset(tmp_path)) == ["a"]
 
 
 # How a truth is read
-
-
-def truth_of(folder, pixels, name="a.png", **options):
-    """The truth that a picture is read as."""
-    shutil.rmtree(folder / "masks", ignore_errors=True)
-    put(folder / "a.png")
-    put(folder / "masks" / name, pixels, **options)
-    return only(sv.open_dataset(folder)).truth()
-
-
-@pytest.mark.parametrize("ending", ["png", "bmp", "pgm", "tif"])
-def test_masks_come_back_exactly(tmp_path, ending):
-    assert truth_of(tmp_path, MASK, f"a.{ending}") == SKYLINE
-
-
-@pytest.mark.parametrize(
-    "pixels",
-    [
-        MASK.repeat(3).reshape(HEIGHT, WIDTH, 3),  # RGB
-        np.dstack([MASK, MASK, MASK, np.full_like(MASK, 255)]),  # RGBA
-        np.dstack([MASK // 255 * 250, MASK // 255 * 235, MASK]),  # tinted
-        MASK > 0,  # one bit
-        (MASK.astype(np.uint16) << 8) | MASK,  # 16 bits
-        np.where(MASK > 0, 128, 127).astype(np.uint8),  # pale
-    ],
-)
-def test_masks_of_every_kind(tmp_path, pixels):
-    assert truth_of(tmp_path, pixels) == SKYLINE
-
-
-@pytest.mark.parametrize("mode", ["L", "RGB"])
-def test_jpeg_masks_are_cut_at_128(tmp_path, mode):
-    pixels = np.array(Image.fromarray(MASK).convert(mode))
-    rows = truth_of(tmp_path, pixels, "a.jpg", quality=92).rows
-    assert np.abs(rows - ROWS).max() <= 1
-
-
-def test_soft_edges_are_cut_at_128(tmp_path):
-    soft = MASK.copy()
-    soft[ROWS - 1, np.arange(WIDTH)] = 127
-    assert truth_of(tmp_path, soft) == SKYLINE
-    soft[ROWS - 1, np.arange(WIDTH)] = 128
-    assert truth_of(tmp_path, soft) == sv.Skyline(ROWS - 1)
-
-
-@pytest.mark.parametrize("row", [0, HEIGHT])
-def test_masks_all_sky_or_all_terrain(tmp_path, row):
-    skyline = sv.Skyline(np.full(WIDTH, row))
-    mask = np.where(skyline.to_mask(HEIGHT), 0, 255).astype(np.uint8)
-    assert truth_of(tmp_path, mask) == skyline
-
-
-def test_a_lake_or_a_gap_in_the_rock_does_not_count(tmp_path):
-    mask = MASK.copy()
-    mask[12:14, 3:9] = 0
-    assert truth_of(tmp_path, mask) == SKYLINE
-
-
-@pytest.mark.parametrize("paint", ["red", "blue"])
-@pytest.mark.parametrize("colour", [True, False])
-def test_painted_photos_come_back_exactly(tmp_path, paint, colour):
-    visible = np.arange(WIDTH) % 7 > 0
-    under = PHOTO if colour else PHOTO[:, :, :1].repeat(3, axis=2)
-    found = truth_of(tmp_path, sv.Skyline(ROWS, visible).to_painted(under, paint))
-    assert np.array_equal(found.visible, visible)
-    assert np.array_equal(found.rows[visible], ROWS[visible])
-
-
-@pytest.mark.parametrize(
-    ("pixels", "reason"),
-    [
-        (NOISE, "no pixel is painted"),
-        (NOISE[:, :, :1].repeat(3, axis=2) // 4 * 2, "brightest value is 126"),
-        (NOISE[:, :, :1].repeat(3, axis=2), "neither painted nor a mask"),
-        (np.repeat(np.uint8([255, 0]), [15, 1])[:, None].repeat(WIDTH, axis=1), "neither painted"),
-    ],
-)
-def test_a_picture_that_is_no_truth_is_refused(tmp_path, pixels, reason):
-    with pytest.raises(sv.SkylineError, match=reason) as caught:
-        truth_of(tmp_path, pixels)
-    assert str(caught.value).startswith(f"{tmp_path / 'masks' / 'a.png'} is no truth: ")
-    assert str(caught.value).endswith(".")
-
-
-def test_a_mask_of_numbers_of_another_size_than_its_photo_is_named(tmp_path):
-    put(tmp_path / "images" / "a.png")
-    (tmp_path / "masks").mkdir()
-    for height, problems in ((HEIGHT, 0), (HEIGHT // 2, 1)):
-        mask = np.zeros((height, WIDTH), np.float32)
-        mask[height // 2 :] = 1
-        Image.fromarray(mask).save(tmp_path / "masks" / "a.tif")
-        dataset = sv.open_dataset(tmp_path)
-        assert len(dataset.problems) == problems
-        assert (dataset.items[0].truth_path is None) == bool(problems)

@@ -9,10 +9,7 @@ import skyline_viz as sv
 from skyline_viz.config import FILTER_SIZES, DetectorConfig, TrainingConfig
 from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
 from skyline_viz.training import train
-from skyline_viz.viewer import entities
-from skyline_viz.viewer.sweep_recording import log_sweeps
-from testing.recordings import Read, verify
-from tests.viewer.test_recording import scene
+from testing.recordings import scene
 
 SETTINGS = ("canny_thresholds", "v", "delta", "link_weight")
 CONFIGS = {
@@ -36,17 +33,6 @@ def banks():
         train([scene(seed=1), scene(seed=2)], 0, TrainingConfig(filter_size=size), "two scenes")
         for size in FILTER_SIZES
     ]
-
-
-@pytest.fixture(scope="module")
-def read(found, banks, tmp_path_factory):
-    path = tmp_path_factory.mktemp("sweep") / "a.rrd"
-    detection, truth = found
-    sweeps = [*setting_sweeps(detection), size_sweep(detection, banks)]
-    with sv.new_recording(path, "a") as recording:
-        log_sweeps(recording, sweeps, detection, truth)
-    verify(path)
-    return Read(path), sweeps
 
 
 @pytest.mark.parametrize("config", CONFIGS.values(), ids=CONFIGS)
@@ -114,68 +100,3 @@ def test_filter_sizes_are_those_of_the_banks(found, banks):
         alone = sv.Detector(bank).detect(found[0].photo)
         assert np.array_equal(detection.scores, alone.scores)
         assert np.array_equal(detection.skyline.rows, alone.skyline.rows)
-
-
-def test_each_timeline_holds_the_path_of_each_value(read, found):
-    recorded, sweeps = read
-    for sweep in sweeps:
-        lines = recorded.on(sweep.timeline, entities.SWEEP_PATH, "strips")
-        assert sorted(lines) == [step.at for step in sweep.steps]
-        for step, detection in sweep.detections(found[0]):
-            (line,) = lines[step.at]
-            assert np.array_equal(np.array(line)[:, 1], detection.skyline.rows)
-
-
-def test_errors_and_reports_say_the_exact_value(read, found):
-    recorded, sweeps = read
-    for sweep in sweeps:
-        errors = recorded.on(sweep.timeline, entities.SWEEP_ERROR, "scalars")
-        reports = recorded.on(sweep.timeline, entities.SWEEP_REPORT, "text")
-        for step, detection in sweep.detections(found[0]):
-            error = sv.a_err(detection.skyline, found[1])
-            assert errors[step.at] == pytest.approx([error])
-            (report,) = reports[step.at]
-            assert f"**{sweep.title} {step.value}**, now {sweep.now}" in report
-            assert f"**A_err {error:.2f} px**" in report
-            assert f"| {sweep.title} |" in report
-        marks = recorded.on(sweep.timeline, f"{entities.SWEEP_ERROR}/present", "scalars")
-        assert list(marks) == [sweep.present]
-
-
-def test_maps_are_logged_where_they_change_only(read):
-    recorded, sweeps = read
-    for sweep in sweeps:
-        edges = recorded.on(sweep.timeline, entities.SWEEP_EDGES, "blob")
-        costs = recorded.on(sweep.timeline, entities.SWEEP_COST, "buffer")
-        every = [step.at for step in sweep.steps]
-        assert sorted(edges) == (every if sweep.timeline == "canny_thresholds" else every[:1])
-        path_only = sweep.timeline in ("delta", "link_weight")
-        assert sorted(costs) == (every[:1] if path_only else every)
-
-
-def test_timelines_without_a_sweep_show_the_present_path(read, found):
-    for timeline in (entities.IMAGE, entities.COLUMN):
-        ((line,),) = read[0].on(timeline, entities.SWEEP_PATH, "strips").values()
-        assert np.array_equal(np.array(line)[:, 1], found[0].skyline.rows)
-        assert read[0].on(timeline, entities.SWEEP_EDGES, "blob")
-
-
-def test_the_best_value_is_the_present_one_where_none_is_better(tmp_path):
-    photo = np.full((60, 80, 3), 200, np.uint8)
-    photo[30:] = 60
-    detection = sv.Detector().detect(photo)
-    with sv.new_recording(tmp_path / "a.rrd", "a") as recording:
-        log_sweeps(recording, setting_sweeps(detection), detection, detection.skyline)
-    report = Read(tmp_path / "a.rrd").last(entities.SWEEP_REPORT, "text").as_py()[0]
-    for row in ("v | 0.00 px | 0.5 |", "delta | 0.00 px | 4 px |"):
-        assert row in report
-
-
-@pytest.mark.parametrize("value", [0, 128])
-def test_photos_without_an_edge_and_without_a_truth(tmp_path, value):
-    detection = sv.Detector().detect(np.full((40, 50, 3), value, np.uint8))
-    with sv.new_recording(tmp_path / "a.rrd", "a") as recording:
-        log_sweeps(recording, setting_sweeps(detection), detection)
-    report = Read(tmp_path / "a.rrd").last(entities.SWEEP_REPORT, "text").as_py()[0]
-    assert "moves the path by" in report
-    assert "A_err" not in report

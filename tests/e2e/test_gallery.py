@@ -24,8 +24,8 @@ from skyline_viz.viewer.process import (
     show_tab,
     tab_names,
 )
-from testing import SAMPLES
-from testing.robot import Robot, listening, until, viewer_port
+from testing import SAMPLES, until
+from testing.robot import Robot, listening, viewer_port
 
 NAMES = ["hazy-1", "spires-5", "rover-2"]  # the worst first
 

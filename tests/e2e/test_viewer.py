@@ -18,8 +18,8 @@ from skyline_viz.viewer.process import (
     show_tab,
     tab_names,
 )
-from testing import SAMPLES
-from testing.robot import Robot, listening, until, viewer_port
+from testing import SAMPLES, until
+from testing.robot import Robot, listening, viewer_port
 
 HARMLESS = ("rasterizer", "Docker", "lookup address")  # what a machine without a screen is told
 

@@ -2,17 +2,13 @@
 
 from dataclasses import replace
 
-import cv2
 import numpy as np
 import pytest
 
 from skyline_viz.diagnosis.diagnosing import diagnose
-from skyline_viz.edges import find_edges, to_grey
 from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.methods.edges_only import EdgesOnly, fill_gaps, ruled_out_but
-from skyline_viz.methods.frames import without_frame
-from skyline_viz.methods.gradient import GradientCost, gradient_cost
-from skyline_viz.methods.stable_edges import stable_edges
+from skyline_viz.methods.gradient import GradientCost
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
 
@@ -22,20 +18,9 @@ def scene():
     return render("clear", 8, 320, 200)
 
 
-@pytest.fixture(scope="module")
-def even_scene():
-    return render("cloudy", 3, 480, 270)
-
-
 def step(height=120, width=160, row=50, sky=220, ground=60):
     photo = np.full((height, width, 3), sky, np.uint8)
     photo[row:] = ground
-    return photo
-
-
-def framed(photo, rows=2):
-    photo = photo.copy()
-    photo[:rows] = photo[-rows:] = 0
     return photo
 
 
@@ -118,66 +103,6 @@ def test_a_photo_without_edges_gives_a_line():
     photo = np.full((40, 60, 3), 128, np.uint8)
     for method in (EdgesOnly(), GradientCost()):
         assert method.detect(photo).skyline.width == 60
-
-
-def test_a_frame_is_no_skyline(scene, even_scene):
-    for method, one in ((EdgesOnly(), scene), (GradientCost(), even_scene)):
-        photo = framed(one.photo)
-        assert find_edges(photo, "grey", 50, 220)[0][:4].mean(axis=1).max() > 0.5
-        assert a_err(method.detect(photo).skyline, one.truth) < 2
-
-
-def test_a_frame_is_painted_over_and_nothing_else(scene):
-    assert without_frame(scene.photo) is scene.photo
-    photo = framed(scene.photo)
-    inside = without_frame(photo)
-    assert (inside[4:-4] == photo[4:-4]).all()
-    assert inside[0].any()
-    assert inside[-1].any()
-    assert without_frame(np.zeros((2, 2, 3), np.uint8)).shape == (2, 2, 3)
-
-
-def test_gradient_cost_is_the_equation():
-    photo = np.random.default_rng(0).integers(0, 256, (7, 9, 3), dtype=np.uint8)
-    grey = np.pad(to_grey(photo).astype(np.float64), 1, mode="reflect")
-    across, down = np.zeros((2, 7, 9))
-    for row in range(7):
-        for column in range(9):
-            part = grey[row : row + 3, column : column + 3]
-            across[row, column] = (part * np.outer((1, 2, 1), (-1, 0, 1))).sum()
-            down[row, column] = (part * np.outer((-1, 0, 1), (1, 2, 1))).sum()
-    strength = np.hypot(across, down)
-    change = np.abs(strength - np.column_stack([strength[:, 1:], strength[:, -1:]]))
-    wanted = 0.3 * change / change.max() + 0.7 * (1 - strength / strength.max())
-    assert gradient_cost(photo, 0.3, 0) == pytest.approx(wanted, abs=1e-5)
-
-
-def test_gradient_finds_an_easy_skyline_and_scores_what_it_costs(even_scene):
-    detection = GradientCost().detect(even_scene.photo)
-    assert a_err(detection.skyline, even_scene.truth) < 2
-    assert detection.edges.all()
-    assert detection.cost.ravel() == pytest.approx(1 - detection.scores, abs=1e-6)
-
-
-def test_stable_edges_are_a_share_of_the_canny_maps(scene):
-    loose = stable_edges(scene.photo, share=0.01)
-    half = stable_edges(scene.photo)
-    strict = stable_edges(scene.photo, share=1.0)
-    assert strict.sum() < half.sum() < loose.sum()
-    assert not (strict & ~half).any()
-    assert not (half & ~loose).any()
-
-
-def test_stable_edges_lie_on_the_skyline(even_scene):
-    edges = stable_edges(even_scene.photo).astype(np.uint8)
-    near = cv2.dilate(edges, np.ones((5, 1), np.uint8))
-    rows = even_scene.truth.pixel_rows(270).clip(0, 269)
-    assert near[rows, np.arange(480)].mean() > 0.95
-    assert edges.mean() < 0.2
-
-
-def test_a_photo_of_one_colour_has_no_stable_edges():
-    assert not stable_edges(np.full((20, 30, 3), 77, np.uint8)).any()
 
 
 @pytest.mark.parametrize("method", [EdgesOnly(), GradientCost()], ids=["edges", "gradient"])

@@ -319,13 +319,6 @@ def test_where_all_pixels_are_candidates_none_is_shown_as_ruled_out():
     assert np.isnan(ruled_out.shown_cost).any()
 
 
-def test_tables_survive_any_name():
-    table = tables.Table("I", "a|b", ("a", "b"), (("x|y", r"a_b^c\d$e{f}~"),))
-    assert r"| x\|y |" in markdown([table])
-    line = next(one for one in latex([table]).splitlines() if "textbackslash" in one)
-    assert r"a\_b\textasciicircum{}c\textbackslash{}d\$e\{f\}\textasciitilde{}" in line
-
-
 def test_published_rows_name_their_training_sets():
     rows = {row[0]: row[2] for row in tables.table_1({}, 2).rows}
     assert rows["Proposed"] == "CH1"

@@ -6,7 +6,7 @@ import { beforeEach, test } from "node:test";
 import { FAULTS, Store, answer, asked, never } from "./model.mjs";
 import { me } from "../../annotate/static/api.js";
 import { Queue, newId } from "../../annotate/static/queue.js";
-import { trouble } from "../../annotate/static/messages.js";
+import { trouble } from "../../annotate/static/words.js";
 
 const soon = { pause: () => new Promise((done) => setImmediate(done)), patience: [20] };
 
@@ -18,7 +18,7 @@ function before(store, faults = [], options = soon) {
   };
   const queue = new Queue(options);
   queue.said = [];
-  queue.addEventListener("change", () => queue.reason && queue.said.at(-1) !== queue.reason && queue.said.push(queue.reason));
+  queue.on("change", () => queue.reason && queue.said.at(-1) !== queue.reason && queue.said.push(queue.reason));
   return queue;
 }
 
@@ -53,7 +53,7 @@ test("what waits, and why, is said in one sentence", async () => {
   const queue = before(new Store(), [() => { throw new TypeError("network"); }]);
   queue.add(anchor(1));
   queue.add(anchor(2));
-  await new Promise((done) => queue.addEventListener("change", () => queue.reason && done()));
+  await new Promise((done) => queue.on("change", () => queue.reason && done()));
   assert.equal(trouble(queue.reason, queue.waiting), "The server does not answer. 2 edits wait and are sent as soon as they can be.");
   await queue.settled();
   assert.equal(trouble(queue.reason, queue.waiting), "");
@@ -63,7 +63,7 @@ test("an attempt follows at once when the network is back", async () => {
   const store = new Store();
   const queue = before(store, [() => { throw new TypeError("network"); }], { pause: never, patience: [1000] });
   queue.add(anchor(1));
-  await new Promise((done) => queue.addEventListener("change", () => queue.reason && done()));
+  await new Promise((done) => queue.on("change", () => queue.reason && done()));
   await new Promise((done) => setImmediate(done));
   queue.wake();
   await queue.settled();
@@ -75,7 +75,7 @@ test("edits after another tab's change are sent on top of it, and said", async (
   store.change(1, "operations", { id: "other", revision: 0, operation: { kind: "anchor", column: 9, row: 9 } });
   const queue = before(store);
   const stale = [];
-  queue.addEventListener("stale", ({ detail }) => stale.push(detail.photo));
+  queue.on("stale", ({ photo }) => stale.push(photo));
   queue.add(anchor(1));
   queue.add(anchor(2));
   await queue.settled();

@@ -47,7 +47,7 @@ class Page {
   constructor(browser) {
     this.browser = browser;
     this.queue = new Queue({ pause: () => (this.alive ? instant() : never()), patience: [3] });
-    this.queue.addEventListener("kept", ({ detail }) => this.alive && this.kept.add(detail.item.id));
+    this.queue.on("kept", ({ item }) => this.alive && this.kept.add(item.id));
     this.shelf = new Shelf({ pass: "the pass", folder: "alps", storage: browser.storage, locks: browser.locks(this) });
     this.queue.use(this.shelf);
   }

@@ -3,12 +3,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { changesLine, sketched } from "../../annotate/static/waiting.js";
-import { trouble } from "../../annotate/static/messages.js";
+import { changesLine } from "../../annotate/static/operations.js";
+import { sketched } from "../../annotate/static/waiting.js";
+import { trouble } from "../../annotate/static/words.js";
 
 const did = (kind, how = {}) => ({ what: "operations", operation: { kind, ...how } });
 const anchor = (column, row = 5) => did("anchor", { column, row });
-const NOTHING = { discs: [], crosses: [], paths: [], bands: [], strokes: [] };
+const NOTHING = { discs: new Map(), crosses: new Set(), paths: [], bands: [], strokes: [] };
 
 test("nothing is drawn for what does not change the line", () => {
   const items = [did("tag", { tag: "fog", on: true }), did("status", { status: "accepted" })];
@@ -19,7 +20,7 @@ test("nothing is drawn for what does not change the line", () => {
 
 test("anchors that are set, moved and removed are drawn where they will be", () => {
   const items = [anchor(3), anchor(9), did("move", { from_column: 3, column: 4, row: 7 }), did("remove", { column: 9 }), anchor(3, 8)];
-  assert.deepEqual(sketched(items), { ...NOTHING, discs: [[4, 7], [3, 8]], crosses: [9] });
+  assert.deepEqual(sketched(items), { ...NOTHING, discs: new Map([[4, [4, 7]], [3, [3, 8]]]), crosses: new Set([9]) });
 });
 
 test("everything that changes the line is drawn", () => {
@@ -35,9 +36,9 @@ test("everything that changes the line is drawn", () => {
 
 test("what a waiting undo takes back is not drawn, and what redo does again is", () => {
   const [undo, redo] = ["undo", "redo"].map((what) => ({ what, operation: null }));
-  assert.deepEqual(sketched([anchor(3), anchor(9), undo]).discs, [[3, 5]]);
-  assert.deepEqual(sketched([anchor(3), undo, redo]).discs, [[3, 5]]);
-  assert.deepEqual(sketched([anchor(3), did("status", { status: "accepted" }), undo]).discs, [[3, 5]]);
+  assert.deepEqual(sketched([anchor(3), anchor(9), undo]).discs, new Map([[3, [3, 5]]]));
+  assert.deepEqual(sketched([anchor(3), undo, redo]).discs, new Map([[3, [3, 5]]]));
+  assert.deepEqual(sketched([anchor(3), did("status", { status: "accepted" }), undo]).discs, new Map([[3, [3, 5]]]));
   assert.deepEqual(sketched([undo, redo]), NOTHING);
 });
 

@@ -2,7 +2,6 @@
 
 import errno
 import importlib
-import io
 import operator
 import os
 import sys
@@ -13,7 +12,6 @@ import pytest
 
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.photo import PhotoError
-from skyline_viz.running import progress
 from skyline_viz.running.batch import BatchError, Failure, chosen_workers, run, sentence
 from skyline_viz.skyline import SkylineError
 
@@ -181,31 +179,3 @@ def test_errors_as_sentences(error, text):
 )
 def test_failures_name_the_photo_once(name, reason, text):
     assert str(Failure(name, reason)) == text
-
-
-class _Terminal(io.StringIO):
-    def isatty(self):
-        return True
-
-
-def test_a_bar_on_a_terminal(monkeypatch):
-    terminal = _Terminal()
-    monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setattr(progress, "PROGRESS_AFTER", 0.0)
-    monkeypatch.setenv("TERM", "xterm")
-    list(run(operator.attrgetter("name"), tasks(3), title="mountains"))
-    assert "mountains" in terminal.getvalue()
-
-
-def test_no_bar_for_a_moment(monkeypatch):
-    terminal = _Terminal()
-    monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setattr(progress, "PROGRESS_AFTER", 1e9)
-    list(run(operator.attrgetter("name"), tasks(3)))
-    assert terminal.getvalue() == ""
-
-
-def test_no_bar_in_a_file(monkeypatch, capsys):
-    monkeypatch.setattr(progress, "PROGRESS_AFTER", 0.0)
-    list(run(operator.attrgetter("name"), tasks(3)))
-    assert capsys.readouterr().err == ""

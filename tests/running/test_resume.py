@@ -1,7 +1,6 @@
 """Runs that are interrupted go on: nothing is done twice, and the results are the same."""
 
 import csv
-import json
 import re
 import shutil
 import signal
@@ -13,12 +12,11 @@ import pytest
 import skyline_viz as sv
 from skyline_viz import detector
 from skyline_viz.cli import main
-from skyline_viz.diagnosis.record import pack, unpack
-from skyline_viz.diagnosis.report import diagnose_item
 from skyline_viz.evaluation import cross_validation as evaluation
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import FOLDER, Codec, Kept
-from testing.ends import started, until, write_set
+from testing import until
+from testing.ends import started, write_set
 
 PHOTOS = 6
 COMMANDS = {
@@ -174,20 +172,6 @@ def test_photos_that_fail_fail_again_and_the_run_is_whole(data, tmp_path, capsys
         assert main(["evaluate", str(mine), "--out", str(tmp_path / "out")]) == 1
         assert "hill-002" in capsys.readouterr().err
     assert not (tmp_path / "out" / FOLDER).exists()
-
-
-def test_a_diagnosis_comes_back_as_it_was(data):
-    (item, *_) = sv.open_dataset(data)
-    item = type(item)(item.name, item.photo_path, data.parent / "low.csv")
-    sv.Skyline([110.0] * 160).write_csv(data.parent / "low.csv")
-    one = diagnose_item(None, evaluation.Test(item, sv.Detector()), remedies=True)
-    assert one.diagnosis.segments
-    assert one.remedies
-    again = unpack(json.loads(json.dumps(pack(one))))
-    assert pack(again) == pack(one)
-    assert again.diagnosis.document() == one.diagnosis.document()
-    assert again.diagnosis.markdown() == one.diagnosis.markdown()
-    assert again.remedies == one.remedies
 
 
 def test_a_photo_that_cannot_be_found_is_a_failure_with_its_own_words(tmp_path):

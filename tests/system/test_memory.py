@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
@@ -15,6 +15,7 @@ from skyline_viz.command_line import sizes
 from skyline_viz.detector import Detector
 from skyline_viz.photo import PhotoError, read_photo, write_photo
 from skyline_viz.system import memory
+from testing.examples import examples
 from testing.labelling import hills, served, workbench, write_hills
 
 BUDGET = 1000
@@ -75,7 +76,7 @@ class Opening(RuleBasedStateMachine):
 
 
 TestOpening = Opening.TestCase
-TestOpening.settings = settings(max_examples=60, stateful_step_count=25)
+TestOpening.settings = examples(60, stateful_step_count=25)
 
 
 def test_the_least_recently_used_is_closed_first():

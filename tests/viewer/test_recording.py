@@ -14,18 +14,9 @@ from skyline_viz.viewer.bank_recording import log_path_bins, path_bins
 from skyline_viz.viewer.blueprints import TABS
 from skyline_viz.viewer.column_views import path_costs
 from skyline_viz.viewer.stage_maps import LEAN_PIXELS, shown_pixels
-from testing.recordings import Read, verify
+from testing.recordings import Read, scene, verify
 
 HEIGHT, WIDTH = 90, 120
-
-
-def scene(height=HEIGHT, width=WIDTH, noise=6, seed=0):
-    """A photo of a ridge with noise, and its truth."""
-    generator = np.random.default_rng(seed)
-    rows = np.round(height * (0.4 + 0.1 * np.sin(np.arange(width) / 9)))
-    photo = np.where(sv.Skyline(rows).to_mask(height)[..., None], (150, 190, 230), (70, 80, 50))
-    photo = photo + generator.normal(0, noise, photo.shape)
-    return photo.clip(0, 255).astype(np.uint8), sv.Skyline(rows, np.arange(width) != 60)
 
 
 def record(path, detection, truth=None, **options):

@@ -5,10 +5,16 @@
  * server wants one. The token is sent as a header, and is neither left in the address nor in the history.
  */
 
-const said = document.getElementById("said");
+/** @param {string} id */
+const element = (id) => /** @type {HTMLElement} */ (document.getElementById(id));
+const said = element("said");
 const STORE = "skyline-viewer";
 
-/** Say something in place of the viewer. */
+/**
+ * Say something in place of the viewer.
+ *
+ * @param {string} sentence
+ */
 function say(sentence) {
   said.textContent = sentence;
   said.hidden = !sentence;
@@ -23,7 +29,11 @@ function asked() {
   return { recordings: words.getAll("recording"), token: words.get("token") ?? "" };
 }
 
-/** Whether an address is one of this server. */
+/**
+ * Whether an address is one of this server.
+ *
+ * @param {string} address
+ */
 function isOurs(address) {
   return new URL(address, location.href).origin === location.origin;
 }
@@ -37,7 +47,12 @@ function keepAtHome() {
       : Promise.reject(new TypeError("This page contacts no other server."));
 }
 
-/** A recording as bytes; throws an `Error` with a sentence. */
+/**
+ * A recording as bytes; throws an `Error` with a sentence.
+ *
+ * @param {string} address
+ * @param {string} token
+ */
 async function read(address, token) {
   if (!isOurs(address)) throw new Error("A recording of another server is not shown here.");
   let answer;
@@ -60,7 +75,7 @@ async function viewer() {
     enable_history: false,
     render_backend: new URLSearchParams(location.search).get("renderer"),
   });
-  await handle.start(document.getElementById("viewer"));
+  await handle.start(element("viewer"));
   return handle;
 }
 
@@ -87,7 +102,7 @@ async function start() {
     say("");
   } catch (error) {
     say(error instanceof Error ? error.message : `The viewer does not start: ${error}`);
-    document.getElementById("viewer").hidden = true;
+    element("viewer").hidden = true;
   }
 }
 

@@ -4,14 +4,16 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from annotate.engine.edits import ORIGINS, EditError, Edits, paint
+from annotate.engine.edits import ORIGINS, EditError, Edits
 from annotate.engine.live_wire import LiveWire
 from skyline_viz.constraints import Anchor, Constraints, PathError
 from skyline_viz.detector import Detector
 from skyline_viz.path import path_tables, shortest_path
+from skyline_viz.uncertainty import APART
+from testing.examples import examples
 
 DETECTOR = Detector()
 CONFIG = DETECTOR.config
@@ -53,7 +55,7 @@ def test_the_proposal_is_the_detection(photo):
     assert set(wire.origin) == {ORIGINS.index("proposal")}
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(st.data())
 def test_every_line_is_the_cheapest_under_its_anchors(data):
     photo = hills(data.draw(st.integers(0, 4)))
@@ -169,15 +171,6 @@ def test_spans_are_what_was_asked_for(photo):
     assert [span.kind for span in wire.edits.spans] == ["drawn"]
 
 
-def test_a_span_cuts_an_earlier_one():
-    edits = Edits(48, 70).draw(10, [7] * 20).straight(15, 7, 20, 9)
-    assert [(one.kind, one.first, one.last) for one in edits.spans] == [
-        ("drawn", 10, 14),
-        ("drawn", 21, 29),
-        ("straight", 15, 20),
-    ]
-
-
 def test_hidden_columns_are_not_visible(photo):
     wire = LiveWire(photo, DETECTOR)
     wire.hide(5, 20)
@@ -246,30 +239,20 @@ def test_edits_that_make_no_sense_are_one_sentence(photo, ask, sentence):
     assert wire.edits == Edits(48, 70)
 
 
-def test_an_anchor_opens_a_piece_of_a_drawn_span():
-    edits = Edits(40, 1000).draw(100, [20] * 200).anchor(200, 5)
-    assert [(one.first, one.last) for one in edits.spans] == [(100, 179), (221, 299)]
-    assert dict(edits.anchors) == {200: 5}
-    ends = Edits(40, 1000).draw(100, [20] * 200).anchor(105, 5)
-    assert [(one.first, one.last) for one in ends.spans] == [(126, 299)]
-
-
-def test_a_stroke_on_others_is_painted_as_all_of_them_afresh():
-    chance = np.random.default_rng(0)
-    photo = hills(1)
-    wire, edits = LiveWire(photo, DETECTOR), Edits(*photo.shape[:2])
-    history = [edits]
-    for _ in range(60):
-        if len(history) > 1 and chance.random() < 0.3:
-            history.pop()
-        else:
-            column, row = int(chance.integers(0, 70)), int(chance.integers(30, 48))
-            points = [(column, row), (column + 6, row + 2)]
-            radius, allow = int(chance.integers(0, 4)), bool(chance.random() < 0.4)
-            history.append(history[-1].forbid(points, radius, allow=allow))
-        wire.edits = history[-1]
-        wire.refresh()
-        forbidden = paint(history[-1].strokes, *photo.shape[:2])
-        np.testing.assert_array_equal(
-            wire._allowed, np.where(forbidden, np.float32(np.inf), wire._cost)
-        )
+@pytest.mark.parametrize("height", [60, 1300])
+def test_alternatives_lie_apart_and_cost_what_they_say(height):
+    photo = np.random.default_rng(1).integers(0, 256, (height, 40, 3), np.uint8)
+    wire = LiveWire(photo, DETECTOR)
+    least = max(APART, height // 100)
+    for column in (0, 17, 39):
+        found = wire.alternatives(column)
+        assert len(found) == 4
+        rows = sorted([int(wire.skyline.rows[column]), *(one.row for one in found)])
+        assert min(np.diff(rows)) > least
+        detours = [one.detour for one in found]
+        assert detours == sorted(detours)
+        cost = DETECTOR.detect(photo).cost
+        for one in found[:2]:
+            line = wire.preview(column, one.row).rows
+            dearer = cost_of(line, cost) - cost_of(wire.skyline.rows, cost)
+            assert one.detour == pytest.approx(dearer, abs=1e-3)

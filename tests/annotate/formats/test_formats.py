@@ -1,79 +1,30 @@
 """Formats of labels: what comes back, what other programs see, and what is refused."""
 
-import csv
-import hashlib
 import json
 import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
-from pycocotools import mask as coco_mask
-from pycocotools.coco import COCO
 
 import annotate.formats as formats
 from annotate.formats import FORMATS, FormatError, export_labels, import_labels
 from annotate.store.labels import TAGS, Label
-from skyline_viz.datasets.layouts import open_dataset
-from skyline_viz.photo import write_photo
-from skyline_viz.skyline import Skyline
+from testing.examples import examples
+from testing.exports import FILE, HEIGHT, WIDTH, label, put, refused, there_and_back, without_line
 
-HEIGHT, WIDTH = 16, 24
 KEEP_VISIBLE = ("painted", "csv", "json", "labelme", "cvat")
 KEEP_TAGS = ("json", "labelme", "cvat")
 EVERY = pytest.mark.parametrize("kind", list(FORMATS))
-FEW = settings(
-    max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
-
-
-def put(folder, name, height=HEIGHT, width=WIDTH, seed=0):
-    path = folder / name
-    path.parent.mkdir(parents=True, exist_ok=True)
-    random = np.random.default_rng(seed)
-    write_photo(path, random.integers(0, 256, (height, width, 3), np.uint8))
-    return path
-
-
-def label(photos, name, rows=None, visible=None, tags=(), width=WIDTH, height=HEIGHT):
-    rows = np.arange(width) % 5 + 4 if rows is None else rows
-    path = photos / name
-    return Label(
-        name=name,
-        digest=hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "",
-        width=width,
-        height=height,
-        annotator="ann",
-        number=2,
-        status="accepted",
-        tags=tuple(tags),
-        skyline=Skyline(rows, visible),
-        origin=(np.arange(width) % 4).astype(np.uint8),
-        operations=({"kind": "anchor", "column": 3, "row": 4, "at": 1.5},),
-        seconds=12.5,
-        detector="found by hand",
-        blind=True,
-    )
-
-
-def without_line(photos, name):
-    return Label(**{**vars(label(photos, name)), "skyline": None})
+FEW = examples(25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 @pytest.fixture
 def photos(tmp_path):
     put(tmp_path / "photos", "a.png")
     return tmp_path / "photos"
-
-
-def there_and_back(tmp_path, photos, kind, labels):
-    """Export and import; the names that are there are those of the labels."""
-    out = tmp_path / "out"
-    shutil.rmtree(out, ignore_errors=True)
-    export = export_labels(labels, photos, out, kind)
-    return export, import_labels(out, photos, [one.name for one in labels])
 
 
 @st.composite
@@ -100,14 +51,6 @@ def test_labels_come_back(tmp_path, photos, kind, line, tags):
         assert found.skyline.visible.all()
         np.testing.assert_array_equal(found.skyline.rows, rows)
     assert found.tags == (tuple(tags) if kind in KEEP_TAGS else ())
-
-
-def test_json_carries_everything(tmp_path, photos):
-    given_label = label(photos, "a.png", tags=TAGS)
-    _, (found,) = there_and_back(tmp_path, photos, "json", [given_label])
-    before, after = dict(vars(given_label)), dict(vars(found.label))
-    np.testing.assert_array_equal(before.pop("origin"), after.pop("origin"))
-    assert before == after
 
 
 @EVERY
@@ -144,86 +87,6 @@ def test_a_column_that_is_all_sky(tmp_path, photos, kind):
 
 
 # What other programs see
-
-
-@pytest.mark.filterwarnings("ignore:__array__ implementation:DeprecationWarning")  # theirs
-@FEW
-@given(
-    rows=st.lists(st.integers(0, HEIGHT), min_size=WIDTH, max_size=WIDTH).filter(any),
-)
-def test_coco_means_this_very_mask(tmp_path, photos, rows):
-    given_label = label(photos, "a.png", np.array(rows))
-    out = tmp_path / "out"
-    shutil.rmtree(out, ignore_errors=True)
-    export_labels([given_label], photos, out, "coco")
-    wanted = given_label.skyline.to_mask(HEIGHT)
-    for name in ("annotations-polygon.json", "annotations-rle.json"):
-        coco = COCO(out / name)
-        (one,) = coco.loadAnns(coco.getAnnIds())
-        packed = coco.annToRLE(one)
-        np.testing.assert_array_equal(coco_mask.decode(packed).astype(bool), wanted, name)
-        assert coco_mask.area(packed) == one["area"]
-        (image,) = coco.loadImgs(one["image_id"])
-        assert (image["height"], image["width"]) == (HEIGHT, WIDTH)
-        assert coco.loadCats(one["category_id"])[0]["name"] == "sky"
-    counts = one["segmentation"]["counts"]
-    assert sum(counts) == HEIGHT * WIDTH
-    assert min(counts[1:]) > 0
-
-
-def test_coco_is_read_as_pycocotools_packs_it(tmp_path, photos):
-    export_labels([label(photos, "a.png")], photos, tmp_path / "out", "coco")
-    path = tmp_path / "out" / "annotations-rle.json"
-    document = json.loads(path.read_text())
-    sky = label(photos, "a.png").skyline.to_mask(HEIGHT)
-    packed = coco_mask.encode(np.asfortranarray(sky.astype(np.uint8)))
-    document["annotations"][0]["segmentation"] = {
-        "size": packed["size"],
-        "counts": packed["counts"].decode(),
-    }
-    path.write_text(json.dumps(document))
-    (found,) = import_labels(path, photos, ["a.png"])
-    assert found.skyline == label(photos, "a.png").skyline
-
-
-@pytest.mark.parametrize(("kind", "layout"), [("ch1", "CH1"), ("painted", "Web")])
-def test_an_export_opens_as_a_data_set(tmp_path, photos, kind, layout):
-    put(photos, "x/a.png", seed=1)
-    labels = [
-        label(photos, "a.png"),
-        label(photos, "x/a.png", np.full(WIDTH, 7)),
-    ]
-    export_labels(labels, photos, tmp_path / "out", kind)
-    dataset = open_dataset(tmp_path / "out")
-    assert dataset.layout == layout
-    assert dataset.problems == ()
-    assert sorted(item.truth().rows[1] for item in dataset) == [5, 7]
-
-
-@pytest.mark.parametrize(("kind", "place"), [("mask", "masks"), ("csv", "ground_truth")])
-def test_masks_and_tables_are_truths_beside_their_photos(tmp_path, photos, kind, place):
-    export_labels([label(photos, "a.png")], photos, tmp_path / "out", kind)
-    shutil.copytree(tmp_path / "out" / ("masks" if kind == "mask" else "."), photos / place)
-    (item,) = open_dataset(photos)
-    assert item.truth() == label(photos, "a.png").skyline
-
-
-def test_labelme_documents_have_what_labelme_asks_for(tmp_path, photos):
-    export_labels([label(photos, "a.png", tags=["mine"])], photos, tmp_path / "out", "labelme")
-    document = json.loads((tmp_path / "out" / "a.json").read_text())
-    assert document["imagePath"] == "a.png"
-    assert document["imageData"] is None
-    assert (document["imageHeight"], document["imageWidth"]) == (HEIGHT, WIDTH)
-    assert document["flags"] == {"mine": True}
-    assert {shape["shape_type"] for shape in document["shapes"]} == {"linestrip"}
-
-
-def test_tables_have_a_line_a_column(tmp_path, photos):
-    export_labels([label(photos, "a.png")], photos, tmp_path / "out", "csv")
-    with (tmp_path / "out" / "a.csv").open(newline="") as file:
-        lines_read = list(csv.reader(file))
-    assert lines_read[0] == ["column", "row", "visible"]
-    assert len(lines_read) == WIDTH + 1
 
 
 # What cannot be carried
@@ -325,32 +188,7 @@ def test_an_import_opens_no_photo_that_it_was_not_given(tmp_path, photos):
 
 # Damaged files
 
-FILE = {
-    "mask": "masks/a.png",
-    "painted": "ground_truth/GT_GoogleImage001_Edge.bmp",
-    "ch1": "cvg/ground_truth/a-mask.png",
-    "csv": "a.csv",
-    "json": "labels.json",
-    "coco": "annotations-rle.json",
-    "labelme": "a.json",
-    "cvat": "annotations.xml",
-}
 TEXT = {kind: FILE[kind] for kind in ("json", "coco", "labelme", "cvat", "csv")}
-
-
-def refused(tmp_path, photos, kind, content):
-    """What is said about a file of an export that was replaced by `content`."""
-    out = tmp_path / "out"
-    shutil.rmtree(out, ignore_errors=True)
-    export_labels([label(photos, "a.png")], photos, out, kind)
-    path = out / FILE[kind]
-    path.write_bytes(content(path.read_bytes()) if callable(content) else content)
-    with pytest.raises(FormatError) as caught:
-        import_labels(out, photos, ["a.png"], kind)
-    said = str(caught.value)
-    assert len(said.splitlines()) == 1
-    assert said.endswith(".")
-    return said
 
 
 @EVERY
@@ -403,20 +241,6 @@ def test_wrong_values_raise_nothing_but_sentences(tmp_path, photos, kind, data):
             assert one.skyline.rows.max() <= HEIGHT
 
 
-@pytest.mark.parametrize("number", ["nan", "inf", "-inf", "1e999", "1e300", "-5000", "x", ""])
-def test_points_that_are_no_place_in_a_photo(tmp_path, photos, number):
-    def content(whole):
-        return whole.replace(b'points="0.50,4.00', f'points="0.50,{number}'.encode())
-
-    refused(tmp_path, photos, "cvat", content)
-
-
-def test_entities_are_refused_before_they_are_expanded(tmp_path, photos):
-    bomb = b'<!DOCTYPE a [<!ENTITY b "bb"><!ENTITY c "&b;&b;">]><annotations>&c;</annotations>'
-    for content in (bomb, bomb.decode().encode("utf-16")):
-        refused(tmp_path, photos, "cvat", content)
-
-
 @EVERY
 def test_another_size_than_the_photos_is_refused(tmp_path, photos, kind):
     export_labels([label(photos, "a.png")], photos, tmp_path / "out", kind)
@@ -434,23 +258,6 @@ def test_another_height_than_the_photos_is_refused(tmp_path, photos, kind):
     put(photos, "a.png", height=HEIGHT + 1)
     with pytest.raises(FormatError):
         import_labels(tmp_path / "out", photos, ["a.png"])
-
-
-def test_a_claimed_size_is_checked_before_memory_is_taken(tmp_path, photos, monkeypatch):
-    def claim(whole):
-        document = json.loads(whole)
-        document["images"][0] |= {"height": 10**5, "width": 10**5}
-        document["annotations"][0]["segmentation"]["counts"] = [10**10]
-        return json.dumps(document).encode()
-
-    repeat = np.repeat
-
-    def small(values, counts, *rest):
-        assert np.sum(counts) < 10**9, "10 GB"
-        return repeat(values, counts, *rest)
-
-    monkeypatch.setattr(np, "repeat", small)
-    refused(tmp_path, photos, "coco", claim)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import stat
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from annotate.commands.open import bound, found_again
@@ -20,6 +20,7 @@ from annotate.server.address import (
 )
 from annotate.store.store import Store
 from skyline_viz.command_line.messages import UsageError
+from testing.examples import examples
 from testing.labelling import write_hills
 
 
@@ -95,9 +96,7 @@ def test_an_address_behind_a_link_is_not_believed(state):
     assert kept_address("folder") is None
 
 
-@settings(
-    suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=60
-)
+@examples(60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.binary(max_size=60) | st.from_regex(rb'\{"token": .*, "port": .*\}', fullmatch=True))
 def test_a_damaged_address_is_none(state, content):
     keep_address("folder", Address("t" * 32, 8000))

@@ -4,13 +4,8 @@ import os
 from concurrent.futures import ThreadPoolExecutor
 
 import cv2
-import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from hypothesis.extra.numpy import arrays
 
-from annotate.server.messages import Part
 from annotate.store.store import Store
 from skyline_viz.photo import read_photo, write_photo
 from testing.labelling import asked, hills, served, write_hills
@@ -257,20 +252,3 @@ def test_what_another_program_added_is_shown_after_one_refusal(client, folder):
     assert document(client)["revision"] == said.json()["revision"]
     again = post(client, "operations", {**body, "revision": said.json()["revision"]}).json()
     assert (again["status"], again["tags"]) == ("accepted", ["theirs"])
-
-
-@given(arrays(np.int32, st.integers(1, 30), elements=st.integers(0, 50)), st.data())
-def test_the_part_of_a_line_that_changed_can_be_joined(before, data):
-    rows = before.copy()
-    for column in data.draw(st.lists(st.integers(0, len(rows) - 1), max_size=4)):
-        rows[column] += 1
-    part = Part.of(rows, before)
-    changed = np.flatnonzero(rows != before)
-    if len(changed) == 0:
-        assert part.rows == []
-        return
-    last = part.first + len(part.rows) - 1
-    assert part.first == max(changed[0] - 1, 0)  # a column more on either side
-    assert last == min(changed[-1] + 1, len(rows) - 1)
-    assert part.rows == rows[part.first : last + 1].tolist()
-    assert Part.of(rows, None).rows == rows.tolist()

@@ -13,27 +13,13 @@ from contextlib import closing, suppress
 import httpx
 
 from annotate.engine.edits import Edits
-from annotate.server.security import TOKEN_HEADER
 from annotate.store.database import NAME
 from annotate.store.history import State, folded
 from annotate.store.store import Store
-from testing.labelling import asked, write_hills
+from testing.labelling import asked, started, write_hills
 
 KILLS = 12
 OPERATIONS = 1000
-
-
-def started(folder):
-    """A server in a process of its own, and a client for it."""
-    words = [sys.executable, "-m", "annotate", "open", folder, "--no-browser", "--annotator", "ann"]
-    process = subprocess.Popen(
-        words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
-    )
-    for line in process.stdout:
-        if found := re.search(r"(http://127\.0\.0\.1:\d+)/\?token=(\S+)", line):
-            client = httpx.Client(base_url=found[1], headers={TOKEN_HEADER: found[2]}, timeout=20)
-            return process, client
-    raise AssertionError(process.stderr.read())
 
 
 def drawn(chance):

@@ -1,11 +1,12 @@
 """Requests made from the server's own description: none makes it stumble."""
 
 import schemathesis
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from schemathesis.checks import not_a_server_error
 
 from annotate.server.app import make_app
 from annotate.server.security import TOKEN_HEADER, allowed_hosts
+from testing.examples import examples
 from testing.labelling import TOKEN, workbench, write_hills
 
 HEADERS = {TOKEN_HEADER: TOKEN}
@@ -15,12 +16,7 @@ def fuzz(operation):
     """Call an operation many times; return the statuses of its answers."""
     statuses = set()
 
-    @settings(
-        max_examples=60,
-        deadline=None,
-        derandomize=True,
-        suppress_health_check=list(HealthCheck),
-    )
+    @examples(60, suppress_health_check=list(HealthCheck))
     @given(case=operation.as_strategy())
     def request(case):
         for photo in (case.path_parameters.get("photo"), 1):  # as drawn, and one that is there

@@ -12,7 +12,7 @@ from annotate.store import journal
 from annotate.store.database import NAME, DamagedError
 from annotate.store.store import Store
 from testing.labelling import workbench, write_hills
-from tests.annotate.commands.test_cli import label
+from testing.labels import label
 
 WAL = f"{NAME}-wal"
 SHM = f"{NAME}-shm"

@@ -6,7 +6,7 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import HealthCheck, example, given
 from hypothesis import strategies as st
 
 import annotate.store.database as database
@@ -20,6 +20,7 @@ from annotate.store.operations import LOGGED, Redo, Undo
 from annotate.store.store import StaleError, Store
 from skyline_viz.constraints import PathError
 from skyline_viz.skyline import Skyline
+from testing.examples import examples
 from testing.labelling import workbench, write_hills
 
 LINE = Line(Skyline(rows=[5] * 70), np.zeros(70, np.uint8))
@@ -303,9 +304,7 @@ EDIT_UNDO_EDIT_REDO = [ANCHOR, {"kind": "undo", "status": True}, {**ANCHOR, "row
 
 @example(asked=[*EDIT_UNDO_EDIT_REDO, {"kind": "redo", "status": True}], again=[0, 2, 1, 3], at=2)
 @example(asked=[ACCEPT, ANCHOR, {"kind": "undo", "status": True}] * 2, again=[5, 1, 1], at=3)
-@settings(
-    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@examples(40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     asked=st.lists(acts, min_size=1, max_size=12),
     again=st.lists(st.integers(0, 11), max_size=12),

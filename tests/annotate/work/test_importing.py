@@ -5,27 +5,23 @@ import sqlite3
 from contextlib import closing
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
-from annotate.cli import main
 from annotate.formats import FormatError, import_labels
 from annotate.formats.whole import MOST_OPERATIONS
 from annotate.store.database import NAME
 from annotate.store.store import Store
 from annotate.work.importing import checked
-from testing.labelling import served
-from tests.annotate.commands.test_cli import label, write_hills
+from testing.examples import examples
+from testing.labelling import served, write_hills
+from testing.labels import POISON, label, poisoned, run
 
 SOUND = [
     {"kind": "open", "at": 1.0},
     {"kind": "anchor", "column": 3, "row": 5, "at": 2.0},
     {"kind": "status", "status": "accepted", "at": 3.0},
 ]
-
-
-def run(*words):
-    return main([str(word) for word in words])
 
 
 @pytest.fixture(scope="module")
@@ -189,7 +185,7 @@ def test_what_was_labelled_already_stays_and_the_rest_is_imported(document, fold
 
 
 def test_all_labels_of_a_file_are_kept_at_once(document, folder, monkeypatch):
-    import annotate.store as store  # noqa: PLC0415
+    import annotate.store.store as store  # noqa: PLC0415
 
     insert = store.insert
 
@@ -268,9 +264,7 @@ TIMED = st.builds(
 )
 
 
-@settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@examples(60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(logs=st.lists(st.lists(TIMED, max_size=6), min_size=2, max_size=2))
 def test_no_log_makes_a_label_that_cannot_be_read(document, tmp_path_factory, logs):
     folder = write_hills(tmp_path_factory.mktemp("any") / "alps", count=2)
@@ -296,33 +290,6 @@ def test_no_log_makes_a_label_that_cannot_be_read(document, tmp_path_factory, lo
 
 
 # A folder that was poisoned by an older version
-
-
-def poisoned(folder, kind="rotate", body='{"kind": "rotate", "degrees": 3}', row=11):
-    """Two labels, of which the second has an operation that nobody knows."""
-    label(folder, row=row)
-    with closing(sqlite3.connect(folder / NAME)) as database, database:
-        database.execute(
-            "INSERT INTO operations (label, at, kind, body) SELECT id, 5.0, ?, ? FROM labels"
-            " WHERE photo = (SELECT id FROM photos WHERE name = 'hill-1.png')",
-            (kind, body),
-        )
-    return folder
-
-
-POISON = [
-    ("rotate", '{"kind": "rotate", "degrees": 3}'),
-    ("status", "{}"),
-    ("status", '{"kind": "status", "status": ["a"]}'),
-    ("tag", '{"kind": "tag", "tag": ["a"], "on": true}'),
-    ("anchor", '{"kind": "anchor", "column": 5000, "row": 5}'),
-    ("anchor", "not JSON"),
-    ("anchor", '{"kind": "remove", "column": 5}'),
-    ("anchor", "[" * 2000),
-    ("anchor", b"\xff\xfe{"),
-    ("anchor", 7),
-    (b"\xff", "{}"),
-]
 
 
 @pytest.mark.parametrize(("kind", "body"), POISON)

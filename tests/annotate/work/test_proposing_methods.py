@@ -1,21 +1,16 @@
 """Other methods propose: their lines, and what the store keeps of them."""
 
-import json
-
 import numpy as np
 import pytest
 
-from annotate.store.kept_detectors import pack, unpack
 from annotate.store.operations import SetAnchor, SetStatus
 from annotate.work import images
 from annotate.work.learning import LEAST, Learner
-from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.method import MethodError
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.methods.gradient import GradientCost
-from skyline_viz.methods.registry import make_method, method_digest
-from skyline_viz.skyline import Skyline
-from testing.labelling import hills, served, workbench, write_hills
+from testing import until
+from testing.labelling import served, workbench, write_hills
 
 
 @pytest.fixture
@@ -53,28 +48,13 @@ def test_every_stage_of_another_method_can_be_shown(folder):
     bench.close()
 
 
-def test_a_method_that_has_learned_comes_back_as_it_was(folder, tmp_path):
-    Skyline(rows=np.full(70, 20.0)).write_csv(tmp_path / "truth.csv")
-    item = DatasetItem("hill-0", folder / "hill-0.png", tmp_path / "truth.csv")
-    method = make_method("svm-dcsi").fit([item])
-    kept = pack(method)
-    assert json.loads(kept.config) == {"method": "svm-dcsi"}
-    again = unpack(kept.config, kept.bank)
-    assert method_digest(again) == kept.digest
-    photo = hills(5)
-    np.testing.assert_array_equal(
-        again.detect(photo).skyline.rows, method.detect(photo).skyline.rows
-    )
-
-
 def test_learning_on_the_way_is_for_our_detector(tmp_path):
     bench = proposing(write_hills(tmp_path, count=LEAST), GradientCost())
     for photo in bench.photos:
         bench.session(photo).apply(SetStatus(status="accepted"), -1)
     learner = Learner(bench)
     learner.start()
-    while learner.now().state == "running":
-        pass
+    until(lambda: learner.now().state != "running")
     assert learner.now().state == "failed"
     assert "the method gradient proposes here" in learner.now().detail
     bench.close()

@@ -1,0 +1,83 @@
+/** Everything that a key or a button does, by name. */
+
+import { stagesAddress } from "./api.js";
+import { box, button, input } from "./dom.js";
+
+/** @import { Actions } from "./actions.js" */
+/** @import { Labelling } from "./labelling.js" */
+/** @import { lineActions } from "./line_actions.js" */
+/** @import { Overlay } from "./overlay.js" */
+/** @import { Sheet } from "./sheet.js" */
+/** @import { Toolbar } from "./toolbar.js" */
+/** @import { Status } from "./types.js" */
+
+/**
+ * @typedef {object} Parts
+ * @property {Labelling} labelling
+ * @property {ReturnType<typeof lineActions>} line
+ * @property {Actions} actions
+ * @property {Toolbar} toolbar
+ * @property {Overlay} overlay
+ * @property {Sheet} sheet
+ * @property {() => void} help - Shows all keys.
+ */
+
+/** @typedef {ReturnType<typeof makeActs>} Acts */
+
+/**
+ * What can be done on the page.
+ *
+ * @param {Parts} parts
+ */
+export function makeActs({ labelling, line, actions, toolbar, overlay, sheet, help }) {
+  return {
+    ...line,
+    help,
+    /** @param {Status} status */
+    finish: (status) => actions.finish(status),
+    /** @param {Status} status */
+    setStatus: (status) => actions.setStatus(status),
+    undo: () => actions.undo(),
+    redo: () => actions.redo(),
+    tags: () => actions.tags(),
+    /** @param {string} key */
+    tool: (key) => toolbar.choose(key),
+    overlay: () => overlay.next(),
+    sheet: () => sheet.show(),
+    stages: () => openStages(labelling),
+    list: () => showList(Boolean(box("side").hidden)),
+    search() {
+      showList(true);
+      input("search").focus();
+    },
+    /** @param {number} by */
+    step(by) {
+      const next = labelling.photos[labelling.place + by];
+      if (next) labelling.open(next.id);
+    },
+  };
+}
+
+/** @param {boolean} shown */
+function showList(shown) {
+  box("side").hidden = !shown;
+  button("list-toggle").setAttribute("aria-expanded", String(shown));
+}
+
+/**
+ * Open the viewer on the stages of the photo, with its line as it is when everything is saved.
+ *
+ * @param {Labelling} labelling
+ */
+async function openStages(labelling) {
+  const { document: shown, queue } = labelling;
+  if (!shown) return;
+  if (shown.blind) {
+    labelling.say("The photo is labelled blind, so nothing of the detector is shown.", true);
+    return;
+  }
+  const tab = open("", "_blank"); // now: later the browser would not let it open
+  await queue.settled();
+  if (tab) tab.location = stagesAddress(shown.id);
+  labelling.say(tab ? "The stages are in another tab." : "The browser keeps tabs from opening; allow them for this page.", !tab);
+}

@@ -1,0 +1,257 @@
+/**
+ * What the server is asked and what it answers.
+ *
+ * Written by `python -m tools.page_types` from the server's models; do not edit it by hand.
+ */
+
+/** Other lines through a column, the cheapest first. */
+export interface Alternatives {
+  alternatives: ShownAlternative[];
+}
+
+/** Do an operation. */
+export interface Apply {
+  id: string;
+  revision: number;
+  operation: Operation;
+}
+
+/** Colours of what is drawn over a photo, as CSS writes them. */
+export interface Colours {
+  line: string;
+  preview: string;
+  anchor: string;
+  halo: string;
+}
+
+/** A photo with everything that was done to it. */
+export interface Document {
+  id: number;
+  name: string;
+  width: number;
+  height: number;
+  revision: number;
+  status: Status;
+  tags: string[];
+  blind: boolean;
+  rows: number[] | null;
+  hidden: [number, number][];
+  anchors: [number, number][];
+  spans: ShownSpan[];
+  forbidden: Stroke[];
+  can_undo: boolean;
+  can_redo: boolean;
+  undo_what: string | null;
+  kept: number | null;
+  origins: { [name: string]: number };
+  doubtful: number | null;
+}
+
+/** The line is drawn by hand. */
+export interface Draw {
+  kind: "drawn";
+  first: number;
+  rows: number[];
+}
+
+/** A stroke of the brush, or of its eraser. */
+export interface Forbid {
+  kind: "forbid";
+  points: [number, number][];
+  radius: number;
+  allow?: boolean;
+}
+
+/** The line cannot be seen in some columns, or can be seen again. */
+export interface Hide {
+  kind: "hidden";
+  first: number;
+  last: number;
+  hidden?: boolean;
+}
+
+/** How far learning from the labels is. */
+export interface Learning {
+  state: "idle" | "running" | "done" | "failed";
+  detail: string;
+  changed: number;
+}
+
+/** What is the same for every photo: words and colours that the page shows. */
+export interface Legend {
+  statuses: Status[];
+  tags: string[];
+  stages: string[];
+  formats: ShownFormat[];
+  colours: Colours;
+  tile: number;
+  band: number;
+}
+
+/** How sure the line is, column by column; null where its row is fixed. */
+export interface Margins {
+  revision: number;
+  margins: (number | null)[];
+  uncertain: number[];
+}
+
+/** An anchor is dragged. */
+export interface MoveAnchor {
+  kind: "move";
+  from_column: number;
+  column: number;
+  row: number;
+}
+
+/** The photo is shown: the clock starts. */
+export interface Open {
+  kind: "open";
+}
+
+/** The part of a line that differs from the current one. */
+export interface Part {
+  first: number;
+  rows: number[];
+}
+
+/** All photos, in their order. */
+export interface PhotoList {
+  folder: string;
+  annotator: string;
+  number: number;
+  photos: ShownPhoto[];
+  progress: ShownProgress;
+}
+
+/** Where the cursor is, and which anchor it drags, if any. */
+export interface Pixel {
+  column: number;
+  row: number;
+  lifted?: number | null;
+}
+
+/** What was asked for in some columns is dropped. */
+export interface Release {
+  kind: "release";
+  first: number;
+  last: number;
+}
+
+/** An anchor is taken away. */
+export interface RemoveAnchor {
+  kind: "remove";
+  column: number;
+}
+
+/** The line passes through a pixel. */
+export interface SetAnchor {
+  kind: "anchor";
+  column: number;
+  row: number;
+}
+
+/** The photo is accepted, rejected, or to be looked at again. */
+export interface SetStatus {
+  kind: "status";
+  status: Status;
+}
+
+/** A tag is put on the photo, or taken off. */
+export interface SetTag {
+  kind: "tag";
+  tag: string;
+  on?: boolean;
+}
+
+/** A page of straightened strips. */
+export interface Sheet {
+  photos: ShownPhoto[];
+  pages: number;
+}
+
+/** Another line through a column. */
+export interface ShownAlternative {
+  row: number;
+  detour: number;
+}
+
+/** A format in which labels leave. */
+export interface ShownFormat {
+  name: string;
+  says: string;
+}
+
+/** A photo in the list. */
+export interface ShownPhoto {
+  id: number;
+  name: string;
+  width: number;
+  height: number;
+  status: Status;
+  tags: string[];
+  margin: number | null;
+  blind: boolean;
+  missing: boolean;
+  too_large: boolean;
+  seconds: number;
+  problem: string;
+}
+
+/** How far a pass is. */
+export interface ShownProgress {
+  done: number;
+  total: number;
+  seconds_a_photo: number | null;
+  seconds_left: number | null;
+}
+
+/** A span. */
+export interface ShownSpan {
+  kind: string;
+  first: number;
+  last: number;
+}
+
+/** Undo or redo. */
+export interface Step {
+  id: string;
+  revision: number;
+}
+
+/** The line is straight between two pixels. */
+export interface Straight {
+  kind: "straight";
+  column: number;
+  row: number;
+  to_column: number;
+  to_row: number;
+}
+
+/** A stroke of the brush: where the line must not go, or, of the eraser, may go again. */
+export interface Stroke {
+  points: [number, number][];
+  radius: number;
+  allow?: boolean;
+}
+
+/** Anything that the page does to a photo. */
+export type Operation =
+  | SetAnchor
+  | MoveAnchor
+  | RemoveAnchor
+  | Forbid
+  | Straight
+  | Draw
+  | Hide
+  | Release
+  | SetTag
+  | SetStatus
+  | Open;
+
+/** How far a photo is. */
+export type Status =
+  | "to do"
+  | "in progress"
+  | "accepted"
+  | "needs review"
+  | "rejected";

@@ -1,0 +1,71 @@
+"""Labels in short, as lists of photos show them."""
+
+import sqlite3
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from annotate.store.identity import Photo
+from annotate.store.standings import Standing
+
+
+@dataclass(frozen=True)
+class Card:
+    """A label in short, as lists show it."""
+
+    photo: Photo
+    label: int | None
+    """Its id; None where nobody has begun."""
+
+    status: str
+    tags: tuple[str, ...]
+    margin: float | None
+    """How sure the detector was of its proposal; None where there is none yet."""
+
+    blind: bool
+    seconds: float
+    problem: str = ""
+    """A sentence that says why its log cannot be read, if so."""
+
+
+@dataclass(frozen=True)
+class _Begun:
+    """What the table of labels says of a label."""
+
+    label: int | None = None
+    margin: float | None = None
+    blind: bool = False
+
+
+def labels_of_pass(
+    database: sqlite3.Connection, annotator: str, number: int
+) -> Mapping[int, _Begun]:
+    """Labels of a pass, by the id of their photo."""
+    rows = database.execute(
+        "SELECT photo, id, margin, blind FROM labels WHERE annotator = ? AND number = ?",
+        (annotator, number),
+    )
+    return {photo: _Begun(label, margin, bool(blind)) for photo, label, margin, blind in rows}
+
+
+def cards_of(
+    photos: Iterable[Photo],
+    begun: Mapping[int, _Begun],
+    stand: Mapping[int, Standing],
+    unreadable: Mapping[int, str],
+) -> dict[int, Card]:
+    """A card for each photo, by its id.
+
+    Args:
+        photos: The photos.
+        begun: The labels of a pass, as `labels_of_pass` gives them.
+        stand: Where labels stand, by their id.
+        unreadable: Why logs could not be read, by the id of their label; this counts more.
+    """
+    cards = {}
+    for photo in photos:
+        one = begun.get(photo.id, _Begun())
+        where = stand.get(one.label or 0, Standing())
+        if one.label is not None and one.label in unreadable:  # its standing may look well
+            where = Standing("needs review", problem=unreadable[one.label])
+        cards[photo.id] = Card(photo, one.label, margin=one.margin, blind=one.blind, **vars(where))
+    return cards

@@ -1,0 +1,62 @@
+"""Photos for detections that are right, or wrong for a known reason, and the two presets."""
+
+import cv2
+import numpy as np
+import pytest
+
+from skyline_viz.config import DetectorConfig
+from skyline_viz.skyline import Skyline
+
+
+def flat_truth(wrong, by, visible=None):
+    """The ridge, off in some columns."""
+    rows = np.full(300, 60.0)
+    rows[wrong] -= by
+    return Skyline(rows=rows, visible=np.ones(300, bool) if visible is None else visible)
+
+
+def lines_in_the_sky(count):
+    """A ridge that fades, and lines above it, the strongest one uppermost."""
+    photo = np.full((160, 300, 3), 215, np.uint8)
+    photo[120:] = 60
+    photo[120:, 80:220] = 165
+    for number in range(count):
+        row = 30 + 22 * number
+        photo[row : row + 8, 60:240] = 20 + 8 * number
+        for side in (range(40, 60), range(240, 260)):  # the way there, in steps of a few rows
+            for at, column in enumerate(side):
+                way = (20 - at if column < 150 else at + 1) / 20
+                top = int(row + (110 - row) * way)
+                photo[top : top + 8, column] = 20 + 8 * number
+    return photo, Skyline(rows=np.full(300, 120.0))
+
+
+def write_dataset(folder, detection, truth):
+    """A plain data set of one photo, a."""
+    for name in ("images", "masks"):
+        (folder / name).mkdir(parents=True)
+    cv2.imwrite(str(folder / "images" / "a.png"), detection.photo[..., ::-1])
+    truth.write_csv(folder / "masks" / "a.csv")
+
+
+CONFIGS = {"default": DetectorConfig(), "paper": DetectorConfig.paper()}
+BOTH = pytest.mark.parametrize("config", CONFIGS.values(), ids=CONFIGS)
+
+
+def mountains(height=120, width=180, seed=0):
+    """Photo of a rugged ridge with rocks below a hazy sky, and its true skyline."""
+    rng = np.random.default_rng(seed)
+    columns = np.arange(width)
+    rows = height * 0.45 + 0.1 * height * np.sin(columns / 19 + seed)
+    rows += 0.05 * height * np.sin(columns / 7 + 2 * seed)
+    truth = Skyline(np.round(rows))
+    sky = np.linspace((110, 150, 220), (200, 215, 235), height)[:, None]
+    rocks = cv2.resize(rng.uniform(30, 110, (height // 6, width // 6)), (width, height))
+    terrain = rocks[:, :, None] * (1.0, 0.95, 0.8)
+    photo = np.where(truth.to_mask(height)[:, :, None], sky, terrain)
+    photo = cv2.GaussianBlur(photo, (0, 0), 0.6) + rng.normal(0, 1, photo.shape)
+    return np.clip(photo, 0, 255).astype(np.uint8), truth
+
+
+def random_photo(height, width, seed=0):
+    return np.random.default_rng(seed).integers(0, 256, (height, width, 3), dtype=np.uint8)

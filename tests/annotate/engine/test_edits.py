@@ -1,0 +1,45 @@
+"""What an annotator has asked of a skyline."""
+
+import numpy as np
+
+from annotate.engine.edits import Edits, paint
+from annotate.engine.live_wire import LiveWire
+from testing.labelling import DETECTOR, hills
+
+
+def test_a_span_cuts_an_earlier_one():
+    edits = Edits(48, 70).draw(10, [7] * 20).straight(15, 7, 20, 9)
+    assert [(one.kind, one.first, one.last) for one in edits.spans] == [
+        ("drawn", 10, 14),
+        ("drawn", 21, 29),
+        ("straight", 15, 20),
+    ]
+
+
+def test_an_anchor_opens_a_piece_of_a_drawn_span():
+    edits = Edits(40, 1000).draw(100, [20] * 200).anchor(200, 5)
+    assert [(one.first, one.last) for one in edits.spans] == [(100, 179), (221, 299)]
+    assert dict(edits.anchors) == {200: 5}
+    ends = Edits(40, 1000).draw(100, [20] * 200).anchor(105, 5)
+    assert [(one.first, one.last) for one in ends.spans] == [(126, 299)]
+
+
+def test_a_stroke_on_others_is_painted_as_all_of_them_afresh():
+    chance = np.random.default_rng(0)
+    photo = hills(1)
+    wire, edits = LiveWire(photo, DETECTOR), Edits(*photo.shape[:2])
+    history = [edits]
+    for _ in range(60):
+        if len(history) > 1 and chance.random() < 0.3:
+            history.pop()
+        else:
+            column, row = int(chance.integers(0, 70)), int(chance.integers(30, 48))
+            points = [(column, row), (column + 6, row + 2)]
+            radius, allow = int(chance.integers(0, 4)), bool(chance.random() < 0.4)
+            history.append(history[-1].forbid(points, radius, allow=allow))
+        wire.edits = history[-1]
+        wire.refresh()
+        forbidden = paint(history[-1].strokes, *photo.shape[:2])
+        np.testing.assert_array_equal(
+            wire._allowed, np.where(forbidden, np.float32(np.inf), wire._cost)
+        )

@@ -1,0 +1,63 @@
+"""Routes of one photo: what they show, and that a preview changes nothing."""
+
+import numpy as np
+import pytest
+
+from testing.labelling import asked, served, write_hills
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory):
+    with served(write_hills(tmp_path_factory.mktemp("photos"))) as client:
+        yield client
+
+
+def operate(client, photo, **operation):
+    return client.post(f"/api/photos/{photo}/operations", json=asked(operation=operation)).json()
+
+
+def test_a_preview_is_what_the_anchor_makes_of_the_line_and_changes_nothing(client):
+    before = client.get("/api/photos/1").json()
+    part = client.post("/api/photos/1/preview", json={"column": 30, "row": 5}).json()
+    assert client.get("/api/photos/1").json() == before
+    rows = before["rows"][:]
+    rows[part["first"] : part["first"] + len(part["rows"])] = part["rows"]
+    after = operate(client, 1, kind="anchor", column=30, row=5)
+    assert after["rows"] == rows
+    assert after["revision"] > before["revision"]
+
+
+def test_margins_are_those_of_the_line_as_it_is(client):
+    shown = operate(client, 2, kind="anchor", column=30, row=20)
+    margins = client.get("/api/photos/2/margins").json()
+    assert margins["revision"] == shown["revision"]
+    assert margins["margins"][30] is None  # it is fixed
+    assert len(margins["margins"]) == len(shown["rows"])
+    assert margins["uncertain"]
+
+
+def test_alternatives_run_through_other_rows_the_cheapest_first(client):
+    row = client.get("/api/photos/3").json()["rows"][40]
+    found = client.get("/api/photos/3/alternatives/40").json()["alternatives"]
+    assert found
+    assert all(one["row"] != row for one in found)
+    detours = [one["detour"] for one in found]
+    assert detours == sorted(detours)
+    assert client.get("/api/photos/3/alternatives/70").status_code == 422
+
+
+def test_undo_and_redo_go_back_and_forth(client):
+    first = operate(client, 3, kind="anchor", column=9, row=9)
+    operate(client, 3, kind="anchor", column=50, row=9)
+    back = client.post("/api/photos/3/undo", json=asked()).json()
+    assert (back["anchors"], back["rows"]) == (first["anchors"], first["rows"])
+    again = client.post("/api/photos/3/redo", json=asked()).json()
+    assert np.array(again["anchors"]).tolist() == [[9, 9], [50, 9]]
+
+
+def test_a_blind_photo_has_no_recording(tmp_path):
+    with served(write_hills(tmp_path, count=1), blind=1.0) as client:
+        answer = client.get("/api/photos/1/recording")
+        assert answer.status_code == 403
+        assert "labelled blind" in answer.json()["detail"]
+        assert client.get("/api/photos/1/alternatives/3").json() == {"alternatives": []}

@@ -1,0 +1,51 @@
+"""Pictures of a photo: whole, reduced, in tiles, as a strip."""
+
+import cv2
+import numpy as np
+import pytest
+
+from skyline_viz.photo import read_photo
+from testing.labelling import hills, served, write_hills
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return write_hills(tmp_path_factory.mktemp("photos"))
+
+
+@pytest.fixture(scope="module")
+def client(folder):
+    with served(folder) as client:
+        yield client
+
+
+def picture(response):
+    assert response.status_code == 200
+    return cv2.imdecode(np.frombuffer(response.content, np.uint8), cv2.IMREAD_UNCHANGED)
+
+
+def test_pictures_show_the_photo(client, folder):
+    photo = read_photo(folder / "hill-1.png")
+    whole = picture(client.get("/api/photos/2/image"))
+    np.testing.assert_array_equal(whole[..., ::-1], photo)
+    part = picture(client.get("/api/photos/2/tiles/0/0"))
+    np.testing.assert_array_equal(part[..., ::-1], photo)
+    assert client.get("/api/photos/2/tiles/1/0").status_code == 404
+    strip = picture(client.get("/api/photos/2/strip?width=70"))
+    rows = client.get("/api/photos/2").json()["rows"]
+    assert strip.shape == (81, 70, 3)
+    for column in (0, 33, 69):
+        np.testing.assert_array_equal(strip[40, column, ::-1], photo[rows[column], column])
+    for stage in ("edges", "strength", "coherence", "orientation", "bin", "score", "cost"):
+        layer = picture(client.get(f"/api/photos/2/stages/{stage}"))
+        assert layer.shape == (48, 70, 4)
+        assert layer[..., 3].any()
+
+
+def test_large_photos_are_seen_reduced_and_in_exact_tiles(tmp_path):
+    folder = write_hills(tmp_path, count=1, height=1400, width=2400)
+    with served(folder) as client:
+        assert picture(client.get("/api/photos/1/image")).shape == (1195, 2048, 3)
+        part = picture(client.get("/api/photos/1/tiles/4/2"))
+        expected = hills(0, 1400, 2400)[1024:, 2048:]
+        np.testing.assert_array_equal(part[..., ::-1], expected)

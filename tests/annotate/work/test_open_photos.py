@@ -1,0 +1,115 @@
+"""Which photos stay open: as many as fit, and the one that is shown."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from annotate.store.identity import Photo
+from annotate.store.opened import BusyError
+from annotate.work import open_photos
+from annotate.work.open_photos import (
+    OPEN_AT_MOST,
+    OPENING,
+    OpenPhotos,
+    SmallPictures,
+    detection_bytes,
+    require_room,
+)
+from testing.labelling import DETECTOR, hills
+
+
+def test_a_photo_is_opened_once():
+    photos = OpenPhotos(100)
+    future, mine = photos.take(1, 10)
+    assert mine
+    assert photos.take(1, 10) == (future, False)
+    assert photos.get(1) is future
+    assert photos.get(2) is None
+    photos.close(1)
+    assert photos.get(1) is None
+
+
+def test_the_least_recently_used_is_closed_but_never_the_shown_one():
+    photos = OpenPhotos(100)
+    for one in (1, 2, 3):
+        photos.take(one, 10)
+    photos.show(1)
+    photos.take(2, 10)
+    photos.take(4, 10)
+    assert photos.open == [1, 2, 4]
+    photos.take(5, 90)  # no room but beside the shown one
+    assert photos.open == [1, 5]
+    photos.close_others(5)
+    assert photos.open == [1, 5]
+    photos.show(5)
+    photos.close_others(5)
+    assert photos.open == [5]
+
+
+def test_what_is_kept_beside_a_photo_counts():
+    photos = OpenPhotos(100)
+    photos.take(1, 40)
+    photos.take(2, 20)
+    photos.show(1)
+    assert photos.fits(60)
+    assert not photos.fits(61)
+    assert photos.keep_beside(1, 60)
+    assert (photos.open, photos.total) == ([1], 100)
+    assert not photos.fits(1)
+    assert not photos.keep_beside(1, 61)
+    assert photos.total == 40  # and nothing is kept any more
+    photos.keep_beside(1, 10)
+    photos.drop_beside()
+    assert photos.total == 40
+
+
+@given(
+    st.lists(
+        st.tuples(st.sampled_from(["take", "show", "beside"]), st.integers(1, 5)), max_size=25
+    ),
+    st.integers(1, 60),
+)
+def test_photos_never_take_more_than_there_is_but_for_the_two_in_use(steps, size):
+    photos, shown = OpenPhotos(100), None
+    for what, photo in steps:
+        if what == "take":
+            photos.take(photo, size)
+        elif what == "show":
+            photos.show(photo)
+            shown = photo
+        else:
+            photos.keep_beside(photo, size)
+        assert len(photos.open) <= OPEN_AT_MOST
+        assert photos.total <= 100 or set(photos.open) <= {shown, photo}
+
+
+def test_pictures_are_forgotten_when_there_are_too_many():
+    pictures = SmallPictures(budget=10)
+    pictures.keep(1, b"1234")
+    pictures.keep(2, b"1234")
+    assert pictures.get(1) == b"1234"
+    pictures.keep(3, b"1234")
+    assert (pictures.get(1), pictures.get(2), pictures.get(3)) == (b"1234", None, b"1234")
+    pictures.keep(3, b"1")
+    pictures.keep(4, b"12345")
+    assert (pictures.get(1), pictures.get(4)) == (b"1234", b"12345")
+
+
+def test_a_photo_that_does_not_fit_is_not_opened(monkeypatch):
+    photo = Photo(1, "large.png", "", 1000, 2000)
+    monkeypatch.setattr(open_photos, "available", lambda: OPENING * 2_000_000)
+    require_room(photo)
+    monkeypatch.setattr(open_photos, "available", lambda: OPENING * 2_000_000 - 1)
+    with pytest.raises(BusyError, match=r"large\.png has 2 megapixels and needs about"):
+        require_room(photo)
+    monkeypatch.setattr(open_photos, "available", lambda: None)
+    require_room(photo)
+
+
+def test_a_detection_takes_at_least_its_costs():
+    detection = DETECTOR.detect(hills(1))
+    taken = detection_bytes(detection)
+    assert taken >= detection.cost.nbytes + detection.edges.nbytes
+    assert taken < 20 * detection.cost.nbytes
+    assert np.shares_memory(detection.photo, detection.photo)

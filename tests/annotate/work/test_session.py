@@ -1,0 +1,116 @@
+"""A photo that is being labelled: its line and its log always agree."""
+
+import numpy as np
+import pytest
+
+from annotate.engine.edits import EditError
+from annotate.store.database import StoreError
+from annotate.store.operations import Hide, Open, SetAnchor, SetStatus, SetTag
+from annotate.store.store import StaleError
+from testing.labelling import workbench, write_hills
+
+
+@pytest.fixture
+def bench(tmp_path):
+    bench = workbench(write_hills(tmp_path / "alps", count=1))
+    yield bench
+    bench.close()
+
+
+@pytest.fixture
+def session(bench):
+    return bench.session(1)
+
+
+def agree(bench, session):
+    """That the log, read afresh, has what is open."""
+    kept = bench.store.state(session.label)
+    assert kept == session.state
+    if kept.line is not None:
+        assert kept.line.skyline == session.wire.skyline
+    assert kept.edits == session.wire.edits
+
+
+def test_the_proposal_is_kept_before_anything_is_done(bench, session):
+    assert session.state.revision == 0
+    assert bench.store.line(session.label).skyline == session.wire.skyline
+    assert session.state.status == "to do"
+
+
+def test_line_and_log_agree_after_every_step(bench, session):
+    for operation in (
+        Open(),
+        SetAnchor(column=9, row=5),
+        SetTag(tag="fog"),
+        Hide(first=60, last=65),
+        SetStatus(status="accepted"),
+    ):
+        session.apply(operation, session.state.revision)
+        agree(bench, session)
+    for step in (session.undo, session.undo, session.redo):
+        step(session.state.revision)
+        agree(bench, session)
+    assert session.wire.skyline.rows[9] == 5
+    assert not session.wire.skyline.visible[60:66].any()
+    assert session.state.status == "in progress"
+
+
+def test_it_goes_on_where_the_log_ends(bench, session):
+    session.apply(SetAnchor(column=9, row=5), -1)
+    kept = session.wire.skyline
+    bench.close_photo(1)
+    again = bench.session(1)
+    assert again is not session
+    assert again.wire.skyline == kept
+    assert dict(again.wire.edits.anchors) == {9: 5}
+
+
+def test_what_comes_again_is_done_once(session):
+    first = session.apply(SetAnchor(column=9, row=5), 0, "id-1")
+    assert session.apply(SetAnchor(column=9, row=5), 0, "id-1") == first
+    assert session.state.count == 1
+    with pytest.raises(StaleError):
+        session.apply(SetAnchor(column=9, row=6), 0, "id-1")
+
+
+def test_what_cannot_be_kept_changes_nothing(session, monkeypatch):
+    before, edits, state = session.wire.skyline, session.wire.edits, session.state
+
+    def full(*_, **__):
+        raise StoreError("the disk is full.")
+
+    monkeypatch.setattr(session._store, "append", full)
+    with pytest.raises(StoreError):
+        session.apply(SetAnchor(column=9, row=5), 0)
+    assert (session.wire.skyline, session.wire.edits, session.state) == (before, edits, state)
+
+
+@pytest.mark.parametrize("step", ["undo", "redo"])
+def test_there_is_nothing_to_take_back(session, step):
+    with pytest.raises(EditError, match=f"there is nothing to {step}"):
+        getattr(session, step)(-1)
+
+
+def test_a_status_that_says_nothing_new_is_refused(session):
+    session.apply(SetStatus(status="rejected"), -1)
+    with pytest.raises(EditError, match="is rejected already"):
+        session.apply(SetStatus(status="rejected"), -1)
+
+
+def test_a_blind_photo_has_nothing_to_accept_before_there_is_a_line(tmp_path):
+    bench = workbench(write_hills(tmp_path / "blind", count=1), blind=1.0)
+    session = bench.session(1)
+    assert session.blind
+    assert bench.store.line(session.label) is None
+    with pytest.raises(EditError, match="nothing to accept"):
+        session.apply(SetStatus(status="accepted"), -1)
+    session.apply(SetAnchor(column=9, row=5), -1)
+    session.apply(SetStatus(status="accepted"), -1)
+    np.testing.assert_array_equal(session.wire.skyline.rows, 5)
+    bench.close()
+
+
+def test_two_at_work_on_one_label_notice_each_other(bench, session):
+    bench.store.append(session.label, -1, "tag", {"tag": "fog", "on": True})
+    with pytest.raises(StaleError):
+        session.apply(SetAnchor(column=9, row=5), session.state.revision)

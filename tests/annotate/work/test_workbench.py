@@ -1,0 +1,37 @@
+"""A folder at work: the order of its photos, and which of them are blind."""
+
+import pytest
+
+from annotate.commands.open import propose_all
+from testing.labelling import workbench, write_hills
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return write_hills(tmp_path / "alps")
+
+
+def test_the_least_certain_photo_comes_first(folder):
+    bench = workbench(folder, order="margin")
+    propose_all(bench)
+    margins = [card.margin for card in bench.cards()]
+    assert None not in margins
+    assert margins == sorted(margins)
+    bench.close()
+
+
+def test_random_orders_and_blind_shares_are_seeded(tmp_path):
+    folder = write_hills(tmp_path, count=12)
+
+    def order(seed):
+        bench = workbench(folder, order="random", blind=0.5, seed=seed)
+        names = [card.photo.name for card in bench.cards()]
+        blind = {photo for photo in bench.photos if bench.store.is_blind(bench.label(photo))}
+        bench.close()
+        return names, blind
+
+    (first, blind), (second, _) = order(0), order(1)
+    assert sorted(first) == sorted(second)
+    assert first != second
+    assert order(0)[0] == first
+    assert 2 <= len(blind) <= 10

@@ -1,0 +1,179 @@
+"""``skyline-viz detect``: what it writes, what it refuses, and what goes on past a fault."""
+
+import hashlib
+import re
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import skyline_viz as sv
+from skyline_viz.commands import detect as detect_command
+from testing.commands import HEIGHT, WIDTH, files, scene, write_scene
+
+
+def test_detect_writes_a_line_for_each_column(say, tmp_path):
+    photo = write_scene(tmp_path / "in" / "Eiger.v2.png")
+    status, out, err = say("detect", photo, "--out", "out")
+    assert (status, err) == (0, "")
+    assert re.fullmatch(r"Eiger\.v2 +96x64 +\d\.\d{3} s  out/Eiger\.v2\.csv\n", out)
+    assert files(tmp_path / "out") == ["Eiger.v2.csv"]
+    found = sv.Skyline.read_csv(tmp_path / "out" / "Eiger.v2.csv")
+    assert sv.a_err(found, scene(0)[1]) < 2
+    assert found == sv.Detector().detect(sv.read_photo(photo)).skyline
+
+
+def test_detect_writes_what_is_asked_for(say, tmp_path):
+    photo = write_scene(tmp_path / "in" / "a.png")
+    assert say("detect", photo, "--mask", "--overlay", "--json")[0] == 0
+    out = tmp_path / "skylines"
+    assert files(out) == ["a-mask.png", "a-overlay.jpg", "a.csv", "a.json"]
+    found = sv.Skyline.read_csv(out / "a.csv")
+    assert sv.Skyline.read_json(out / "a.json") == found
+    mask = np.asarray(Image.open(out / "a-mask.png"))
+    np.testing.assert_array_equal(mask, np.where(found.to_mask(HEIGHT), 0, 255))
+    overlay = sv.read_photo(out / "a-overlay.jpg").astype(int)
+    assert overlay.shape == (HEIGHT, WIDTH, 3)
+    line = overlay[found.rows.astype(int), np.arange(WIDTH)]
+    assert (line[:, 0] > line[:, 1] + 80).mean() > 0.9  # magenta, as far as JPEG keeps it
+
+
+def test_detect_takes_the_photos_of_a_data_set(say, hills, tmp_path):
+    status, out, _ = say("detect", hills, "--out", "out")
+    assert status == 0
+    assert files(tmp_path / "out") == ["p0.csv", "p1.csv", "p2.csv", "p3.csv"]
+    assert "4 skylines in out" in out
+
+
+def test_two_processes_find_the_same(say, hills, tmp_path):
+    assert say("detect", hills, "--out", "one", "--workers", "1")[0] == 0
+    assert say("detect", hills, "--out", "two", "--workers", "2")[0] == 0
+    for name in files(tmp_path / "one"):
+        assert (tmp_path / "one" / name).read_text() == (tmp_path / "two" / name).read_text()
+
+
+def test_settings_reach_the_detector(say, hills, monkeypatch):
+    seen = []
+
+    def remember(options, detector, photo):
+        seen.append((detector.config, detector.bank.provenance.dataset))
+        raise sv.PhotoError("enough.")
+
+    monkeypatch.setattr(detect_command, "_detect", remember)
+    assert say("train", hills, "--out", "b.npz")[0] == 0
+    photo = hills / "images" / "p0.png"
+    say("detect", photo, "--bank", "b.npz", "--config.delta", "2")
+    say("detect", photo, "--preset", "paper", "--config.v", "0.25")
+    say("detect", photo, "--config.no-fit-thresholds")
+    assert seen[0] == (sv.DetectorConfig(delta=2), "hills")
+    paper = sv.DetectorConfig.paper()
+    assert seen[1][0].edge_source == "grey"
+    assert (seen[1][0].v, seen[1][0].delta) == (0.25, paper.delta)
+    assert seen[2][0] == sv.DetectorConfig(fit_thresholds=False)
+
+
+def test_bad_photos_are_listed_and_the_others_done(say, tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "torn.jpg").write_bytes(b"\xff\xd8\xff\xe0 and no more")
+    (tmp_path / "in" / "empty.png").touch()
+    good = write_scene(tmp_path / "in" / "good.png")
+    status, out, err = say("detect", "gone.jpg", tmp_path / "in", good, "--out", "out")
+    assert status == 1
+    assert files(tmp_path / "out") == ["good.csv"]
+    assert "good" in out
+    told = err.splitlines()
+    assert told[0] == "skyline-viz: 3 photos failed:"
+    assert "gone.jpg cannot be read: no such file or directory." in told[1]
+    assert "empty.png is empty (0 bytes)." in told[2]
+    assert "torn.jpg" in told[3]
+    assert len(told) == 4
+
+
+def test_photos_of_the_same_stem_do_not_overwrite_each_other(say, tmp_path):
+    photos = [
+        write_scene(tmp_path / place, number)
+        for number, place in enumerate(["a/x.png", "a/x.jpg", "b/y.png", "c/y.png", "c/z.png"])
+    ]
+    status, _, err = say("detect", *photos, photos[4], "--out", "out")
+    assert status == 0
+    assert files(tmp_path / "out") == ["x.jpg.csv", "x.png.csv", "y-2.csv", "y.csv", "z.csv"]
+    assert "told apart in the names of outputs: x.png, x.jpg, y-2." in err
+    found = sv.Skyline.read_csv(tmp_path / "out" / "y-2.csv")
+    assert sv.a_err(found, scene(3)[1]) < 2
+
+
+@pytest.mark.parametrize("out", ["set/images", "set/masks", "set/ground_truth", "set/images/masks"])
+def test_skylines_never_become_truth_by_accident(say, tmp_path, out):
+    photo = write_scene(tmp_path / "set" / "images" / "a.png")
+    status, _, err = say("detect", photo, "--out", out)
+    assert status == 2
+    assert "would be taken for the truth" in err
+    assert files(tmp_path) == ["set/images/a.png"]
+    assert say("detect", photo, "--out", "set/found")[0] == 0
+    assert sv.open_dataset(tmp_path / "set").items[0].truth() is None
+
+
+def test_an_output_folder_that_is_a_file(say, tmp_path):
+    photo = write_scene(tmp_path / "in" / "a.png")
+    (tmp_path / "file").touch()
+    for out in ("file", "file/deeper"):
+        status, _, err = say("detect", photo, "--out", out)
+        assert status == 2
+        assert f"the folder {out} cannot be made: " in err
+
+
+def test_an_output_that_is_a_folder_is_the_failure_of_one_photo(say, tmp_path):
+    (tmp_path / "skylines" / "a.csv").mkdir(parents=True)
+    photos = [write_scene(tmp_path / "in" / name) for name in ("a.png", "b.png")]
+    status, _, err = say("detect", *photos)
+    assert status == 1
+    assert "is a directory" in err
+    assert files(tmp_path / "skylines") == ["b.csv"]
+
+
+def test_a_full_disk_ends_the_run_with_a_sentence(say, hills, monkeypatch):
+    def full(options, detector, photo):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(detect_command, "_detect", full)
+    assert say("detect", hills) == (
+        1,
+        "",
+        "skyline-viz: the output cannot be written: no space left on device.\n",
+    )
+
+
+def test_an_interrupt_ends_with_130_and_leaves_no_half_file(say, hills, tmp_path, monkeypatch):
+    write = sv.Skyline.write_csv
+
+    def interrupted(skyline, path):
+        if path.stem == "p2":
+            path.parent.mkdir(exist_ok=True)
+            raise KeyboardInterrupt
+        write(skyline, path)
+
+    monkeypatch.setattr(sv.Skyline, "write_csv", interrupted)
+    status, _, err = say("detect", hills, "--out", "out", "--workers", "1")
+    assert status == 130
+    assert err == "skyline-viz: interrupted; every file that was written is whole.\n"
+    assert files(tmp_path / "out") == ["p0.csv", "p1.csv"]
+
+
+def test_the_same_photo_gives_the_same_bytes(say, tmp_path):
+    photo = write_scene(tmp_path / "in" / "a.png")
+    digests = set()
+    for out in ("one", "two"):
+        say("detect", photo, "--out", out, "--mask", "--overlay")
+        whole = b"".join((tmp_path / out / name).read_bytes() for name in files(tmp_path / out))
+        digests.add(hashlib.sha256(whole).hexdigest())
+    assert len(digests) == 1
+
+
+def test_detect_says_what_is_wrong_with_a_data_set(say, tmp_path):
+    (tmp_path / "set" / "images").mkdir(parents=True)
+    (tmp_path / "set" / "masks").mkdir()
+    Image.fromarray(np.full((40, 60, 3), 90, np.uint8)).save(tmp_path / "set/images/a.png")
+    Image.fromarray(np.full((40, 60), 255, np.uint8)).save(tmp_path / "set/masks/orphan.png")
+    status, _, errors = say("detect", tmp_path / "set", "--out", tmp_path / "out")
+    assert status == 0
+    assert "orphan" in errors

@@ -1,0 +1,58 @@
+"""``skyline-viz train``: the bank that it writes, and what it says about it."""
+
+import numpy as np
+
+import skyline_viz as sv
+from testing.commands import scene, write_scene
+
+
+def test_train_writes_a_bank_and_tells_about_it(say, hills, tmp_path):
+    status, out, err = say(
+        "train", hills, "--out", "new/bank.npz", "--seed", "5", "--training.filter-size", "5"
+    )
+    assert (status, err) == (0, "")
+    bank = sv.FilterBank.load(tmp_path / "new" / "bank.npz")
+    assert (bank.size, bank.provenance.dataset) == (5, "hills")
+    assert (bank.provenance.images, bank.provenance.seed) == (4, 5)
+    size = (tmp_path / "new" / "bank.npz").stat().st_size
+    for told in (
+        "4 of 4 in hills",
+        f"{bank.samples.sum():,}",
+        f"{bank.starved.sum()} of 288 bins",
+        f"{size:,} bytes",
+    ):
+        assert told in out
+
+
+def test_the_same_seed_gives_the_same_bank_whatever_the_workers(say, hills, tmp_path):
+    for name, workers in (("a", 1), ("b", 2)):
+        assert say("train", hills, "--out", f"{name}.npz", "--workers", workers)[0] == 0
+    banks = [sv.FilterBank.load(tmp_path / f"{name}.npz") for name in "ab"]
+    np.testing.assert_array_equal(banks[0].filters, banks[1].filters)
+
+
+def test_photos_without_truth_are_named_and_left_out(say, hills, tmp_path):
+    root = tmp_path / "some"
+    write_scene(root / "images" / "p0.png", 0)
+    write_scene(root / "images" / "bare.png", 1)
+    scene(0)[1].write_csv(root / "masks" / "p0.csv")
+    scene(0)[1].write_csv(root / "masks" / "stray.csv")
+    status, out, err = say("train", root, "--out", "b.npz")
+    assert status == 0
+    assert "1 of 2 in some" in out
+    assert err.splitlines() == [
+        "skyline-viz: some: masks/stray.csv has no photo.",
+        "skyline-viz: left out, because there is no truth: bare.",
+    ]
+
+
+def test_training_goes_on_past_a_bad_photo(say, tmp_path):
+    root = tmp_path / "some"
+    for number in range(2):
+        write_scene(root / "images" / f"p{number}.png", number)
+        scene(number)[1].write_csv(root / "masks" / f"p{number}.csv")
+    (root / "images" / "p0.png").write_bytes(b"no photo")
+    status, out, err = say("train", root, "--out", "b.npz")
+    assert status == 1
+    assert "1 of 2" in out
+    assert "p0.png" in err

@@ -1,0 +1,84 @@
+/** Strokes, anchors and columns as numbers. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { chance } from "./model.mjs";
+import { alongOldLine, columnAt, drawn, nearest, nextUncertain, thinned, uncertainty } from "../../annotate/static/geometry.js";
+
+const line = (length) => Array.from({ length }, (_, at) => [at, at]);
+
+test("a long stroke keeps its ends and at most some 2,000 points, a short one all", () => {
+  assert.deepEqual(thinned(line(2000)), line(2000));
+  for (const length of [2001, 5000, 123_457]) {
+    const kept = thinned(line(length));
+    assert.ok(kept.length <= 2001, `${length} points leave ${kept.length}`);
+    assert.deepEqual([kept[0], kept.at(-1)], [[0, 0], [length - 1, length - 1]]);
+  }
+});
+
+test("a drawn stroke has a row in each of its columns, between those of its points", () => {
+  assert.deepEqual(drawn([[4, 10], [8, 14]]), { first: 4, rows: [10, 11, 12, 13, 14] });
+  assert.deepEqual(drawn([[8, 14], [4, 10]]), { first: 4, rows: [10, 11, 12, 13, 14] });
+  assert.deepEqual(drawn([[3, 7]]), { first: 3, rows: [7] });
+});
+
+test("where a stroke goes back, what was drawn last counts", () => {
+  assert.deepEqual(drawn([[0, 0], [4, 0], [2, 9]]), { first: 0, rows: [0, 0, 9, 5, 0] }); // back from column 4
+});
+
+test("any stroke comes to as many rows as it is wide, without a gap", () => {
+  const random = chance(1);
+  for (let round = 0; round < 200; round++) {
+    const points = Array.from({ length: 1 + random.below(12) }, () => [random.below(60), random.below(40)]);
+    const { first, rows } = drawn(points);
+    const columns = points.map(([column]) => column);
+    assert.equal(first, Math.min(...columns));
+    assert.equal(rows.length, Math.max(...columns) - first + 1);
+    assert.ok(rows.every((row) => Number.isInteger(row) && row >= 0 && row < 40));
+    assert.equal(rows[points.at(-1)[0] - first], points.at(-1)[1]); // the last point is where it was let go
+  }
+});
+
+test("the nearest anchor within reach is found", () => {
+  const away = ([column]) => Math.abs(column - 10);
+  assert.deepEqual(nearest([[2, 0], [13, 0], [30, 0]], away), [13, 0]);
+  assert.deepEqual(nearest([[2, 0], [13, 0]], away, 3), [13, 0]);
+  assert.equal(nearest([[2, 0], [13, 0]], away, 2), undefined);
+  assert.equal(nearest([], away), undefined);
+});
+
+test("the old line around a new anchor is kept out up to an eighth of the photo, and not to its neighbours", () => {
+  const shown = { width: 800, height: 520, rows: Array(800).fill(100), anchors: [] };
+  const { points, radius } = alongOldLine(shown, [400, 150]);
+  assert.equal(radius, 2);
+  assert.deepEqual([points[0], points.at(-1)], [[300, 100], [498, 100]]); // every third column
+  const between = alongOldLine({ ...shown, anchors: [[350, 100], [420, 100]] }, [400, 150]).points;
+  assert.deepEqual([between[0][0], between.at(-1)[0]], [363, 405]); // an eighth of the room is left at each
+  assert.deepEqual(alongOldLine(shown, [2, 150]).points[0], [0, 100]);
+});
+
+test("nothing is kept out where the line is close already", () => {
+  const shown = { width: 800, height: 520, rows: Array(800).fill(100), anchors: [] };
+  assert.deepEqual(alongOldLine(shown, [400, 104]).points, []);
+  assert.notDeepEqual(alongOldLine(shown, [400, 105]).points, []);
+});
+
+test("uncertain columns are visited from left to right and round, the least certain one first", () => {
+  const uncertain = [50, 10, 90];
+  assert.equal(nextUncertain(uncertain, undefined, 1), 50);
+  assert.deepEqual([10, 50, 90].map((from) => nextUncertain(uncertain, from, 1)), [50, 90, 10]);
+  assert.deepEqual([10, 50, 90].map((from) => nextUncertain(uncertain, from, -1)), [90, 10, 50]);
+  assert.deepEqual([nextUncertain(uncertain, 60, 1), nextUncertain(uncertain, 60, -1)], [90, 50]);
+  assert.equal(nextUncertain([], 3, 1), undefined);
+});
+
+test("a bar is as uncertain as its least certain column, whether it has many or shares one", () => {
+  assert.deepEqual(uncertainty([0, null, 4, 2], 2), [1, 0.25]);
+  assert.deepEqual(uncertainty([0, 4], 4), [1, 1, 0, 0]);
+  assert.deepEqual(uncertainty([null, 9], 2), [0, 0]);
+});
+
+test("a place in a strip is a column of the photo", () => {
+  assert.deepEqual([0, 50, 99.9, 100, -1].map((x) => columnAt(x, 100, 400)), [0, 200, 399, 399, 0]);
+});

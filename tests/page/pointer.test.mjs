@@ -1,0 +1,145 @@
+/** Mouse, pen and fingers: which tool gets what, zoom and pan. */
+
+import assert from "node:assert/strict";
+import { beforeEach, test } from "node:test";
+
+import { Asked, Labelled, photo } from "./stubs.mjs";
+import { Pointer } from "../../annotate/static/pointer.js";
+import { Selection } from "../../annotate/static/selection.js";
+import { View } from "../../annotate/static/view.js";
+
+/** A canvas at the corner of the window. */
+class Canvas extends EventTarget {
+  focus() {}
+
+  setPointerCapture() {}
+
+  getBoundingClientRect() {
+    return { left: 0, top: 0 };
+  }
+}
+
+let canvas;
+let view;
+let labelling;
+let previewer;
+let pointer;
+let done;
+
+beforeEach(() => {
+  canvas = new Canvas();
+  view = new View();
+  view.resize(400, 240);
+  view.show(400, 240); // a screen pixel a pixel
+  labelling = new Labelled(photo({ anchors: [[50, 100]] }));
+  previewer = new Asked();
+  done = [];
+  pointer = new Pointer({
+    canvas, view, labelling, previewer, selection: new Selection(),
+    anchor: (...how) => done.push(["anchor", ...how]), goTo: (column) => done.push(["goTo", column]),
+  });
+});
+
+function tell(name, x, y, how = {}) {
+  const event = new Event(name, { cancelable: true });
+  const said = { pointerId: 1, pointerType: "mouse", button: 0, clientX: x, clientY: y, offsetX: x, offsetY: y, shiftKey: false, altKey: false };
+  canvas.dispatchEvent(Object.assign(event, said, how));
+  return event;
+}
+
+const finger = (id) => ({ pointerType: "touch", pointerId: id });
+
+/** Press at the first place, move through the others, and let go at the last. */
+function drag(places, how = {}) {
+  tell("pointerdown", ...places[0], how);
+  for (const place of places.slice(1)) tell("pointermove", ...place, how);
+  tell("pointerup", ...places.at(-1), how);
+}
+
+test("a click, also of a hand that trembles, is one", () => {
+  drag([[100, 60], [102, 62]]);
+  assert.deepEqual(done, [["anchor", 102, 62, false]]);
+});
+
+test("with the mouse over the photo, the line through its pixel is shown; over an anchor it is not", () => {
+  tell("pointermove", 100, 60);
+  assert.deepEqual(previewer.asked, [[100, 60]]);
+  tell("pointermove", 51, 101);
+  assert.equal(previewer.cleared, 1);
+  labelling.waiting = 1; // the line is another one soon
+  tell("pointermove", 120, 60);
+  assert.equal(previewer.asked.length, 1);
+  tell("pointerleave", 0, 0);
+  assert.equal(previewer.cleared, 2);
+});
+
+test("an anchor is hit within ten pixels by the mouse and 24 by a finger", () => {
+  drag([[59, 100], [80, 110]]);
+  drag([[73, 100], [80, 110]], finger(1));
+  drag([[73, 100]]);
+  assert.deepEqual(labelling.applied, [50, 50].map((from) => ({ kind: "move", from_column: from, column: 80, row: 110 })));
+  assert.deepEqual(done, [["anchor", 73, 100, false]]);
+});
+
+test("a right click removes an anchor, and moves the photo elsewhere", () => {
+  drag([[52, 100]], { button: 2 });
+  assert.deepEqual(labelling.applied, [{ kind: "remove", column: 50 }]);
+  view.zoom(4);
+  const { left } = view;
+  drag([[200, 100], [210, 100], [215, 100]], { button: 2 });
+  assert.equal(view.left, left + 15);
+  assert.deepEqual([labelling.applied.length, done], [1, []]);
+});
+
+test("the chosen tool follows, whatever it is over", () => {
+  pointer.use("hidden");
+  drag([[50, 100], [80, 100]]);
+  assert.deepEqual(labelling.applied, [{ kind: "hidden", first: 50, last: 80, hidden: true }]);
+});
+
+test("two fingers zoom and move, and do nothing else", () => {
+  pointer.use("forbid");
+  tell("pointerdown", 180, 120, finger(1));
+  tell("pointerdown", 220, 120, finger(2));
+  tell("pointermove", 160, 120, finger(1));
+  tell("pointermove", 240, 120, finger(2));
+  assert.equal(view.scale, 2);
+  tell("pointerup", 160, 120, finger(1));
+  tell("pointermove", 20, 20, finger(2)); // the one that is left does nothing
+  tell("pointerup", 20, 20, finger(2));
+  assert.equal(view.scale, 2);
+  assert.deepEqual(labelling.applied, []);
+  drag([[100, 60]], finger(1)); // and the next one is a press again
+  assert.equal(labelling.applied.length, 1);
+});
+
+test("of three fingers, those that are left go on from where they are", () => {
+  tell("pointerdown", 100, 120, finger(1));
+  tell("pointerdown", 140, 120, finger(2));
+  tell("pointerdown", 300, 120, finger(3));
+  tell("pointerup", 100, 120, finger(1));
+  const { scale, left } = view;
+  tell("pointermove", 140, 120, finger(2)); // nothing has moved
+  assert.deepEqual([view.scale, view.left], [scale, left]);
+});
+
+test("a press that is broken off comes to nothing", () => {
+  pointer.use("drawn");
+  tell("pointerdown", 100, 60);
+  tell("pointermove", 150, 60);
+  tell("pointercancel", 150, 60);
+  tell("pointerup", 160, 60);
+  assert.deepEqual([labelling.applied, done], [[], []]);
+});
+
+test("the wheel zooms around the pointer, and the page stays where it is", () => {
+  const event = tell("wheel", 100, 60, { deltaY: -100, deltaMode: 0 });
+  assert.ok(event.defaultPrevented && view.scale > 1);
+  assert.deepEqual(view.toPixel(100, 60), [100, 60]);
+});
+
+test("without a photo nothing happens", () => {
+  labelling.document = null;
+  drag([[100, 60], [120, 60]]);
+  assert.deepEqual([labelling.applied, done, previewer.asked], [[], [], []]);
+});

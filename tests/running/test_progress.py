@@ -1,0 +1,41 @@
+"""A progress bar on a terminal, and silence elsewhere."""
+
+import io
+import operator
+import sys
+from types import SimpleNamespace
+
+from skyline_viz.running import progress
+from skyline_viz.running.batch import run
+
+
+def tasks(count):
+    return [SimpleNamespace(name=f"photo {number}") for number in range(count)]
+
+
+class _Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_a_bar_on_a_terminal(monkeypatch):
+    terminal = _Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setattr(progress, "PROGRESS_AFTER", 0.0)
+    monkeypatch.setenv("TERM", "xterm")
+    list(run(operator.attrgetter("name"), tasks(3), title="mountains"))
+    assert "mountains" in terminal.getvalue()
+
+
+def test_no_bar_for_a_moment(monkeypatch):
+    terminal = _Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setattr(progress, "PROGRESS_AFTER", 1e9)
+    list(run(operator.attrgetter("name"), tasks(3)))
+    assert terminal.getvalue() == ""
+
+
+def test_no_bar_in_a_file(monkeypatch, capsys):
+    monkeypatch.setattr(progress, "PROGRESS_AFTER", 0.0)
+    list(run(operator.attrgetter("name"), tasks(3)))
+    assert capsys.readouterr().err == ""

@@ -1,0 +1,72 @@
+"""How the viewer lays a recording out: what is in it decides about its tabs."""
+
+import pytest
+
+from skyline_viz.viewer.blueprints import (
+    Contents,
+    MethodContents,
+    detection_blueprint,
+    stages_blueprint,
+)
+
+PLAIN = Contents(300, 800)
+
+
+def tabs(blueprint):
+    return [tab.name for tab in blueprint.root_container.contents]
+
+
+def origins(part):
+    """Entity paths that views begin at or show, whatever they lie in."""
+    found = [str(getattr(part, "origin", ""))]
+    found += [str(one) for one in getattr(part, "contents", []) or [] if isinstance(one, str)]
+    for one in getattr(part, "contents", []) or []:
+        if not isinstance(one, str):
+            found += origins(one)
+    return found
+
+
+def test_a_plain_detection_has_the_tabs_of_our_detector():
+    assert tabs(detection_blueprint(PLAIN)) == [
+        "Skyline",
+        "Stages",
+        "Tensor",
+        "Filter bank",
+        "Columns",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("more", "name"),
+    [
+        ({"diagnosed": True, "truth": True}, "Diagnosis"),
+        ({"swept": "delta"}, "Sweep"),
+        ({"compared": "paper"}, "Compare"),
+        ({"photos": 3}, "Photos"),
+        ({"methods": (MethodContents("edges"),)}, "edges"),
+    ],
+)
+def test_what_else_is_in_it_has_a_tab(more, name):
+    contents = Contents(300, 800, **more)
+    assert name in tabs(detection_blueprint(contents))
+    assert name not in tabs(detection_blueprint(PLAIN))
+    front = detection_blueprint(contents, active=name).root_container
+    assert tabs(detection_blueprint(contents))[front.active_tab] == name
+
+
+def test_other_methods_have_neither_tensor_nor_bank():
+    other = Contents(300, 800, filters=False, bank=False)
+    assert tabs(detection_blueprint(other)) == ["Skyline", "Stages", "Columns"]
+
+
+def test_a_tab_that_there_is_not_cannot_be_in_front():
+    with pytest.raises(ValueError, match="Sweep"):
+        detection_blueprint(PLAIN, active="Sweep")
+
+
+def test_the_stages_of_another_detector_are_shown_by_their_names():
+    blueprint = stages_blueprint(300, 800, ["mine/heat", "mine/line_of_sight"])
+    assert tabs(blueprint) == ["Skyline", "Stages"]
+    shown = origins(blueprint.root_container)
+    assert "+ /mine/heat" in shown
+    assert "+ /mine/line_of_sight" in shown

@@ -1,0 +1,65 @@
+"""A diagnosis as Rerun entities."""
+
+import numpy as np
+import pytest
+
+import skyline_viz as sv
+from skyline_viz.diagnosis.diagnosing import diagnose
+from skyline_viz.rendering import render
+from skyline_viz.skyline import Skyline
+from skyline_viz.viewer import entities
+from skyline_viz.viewer.diagnosis_recording import _smooth as smooth
+from skyline_viz.viewer.diagnosis_recording import log_diagnosis
+from testing.injected import cases
+from testing.recordings import Read, verify
+
+
+@pytest.fixture(scope="module")
+def hazy():
+    scene = render("hazy", 1)
+    return sv.Detector().detect(scene.photo), scene.truth
+
+
+def test_the_viewer_gets_frames_lines_and_reasons(tmp_path):
+    (one,) = cases("too steep", 1)
+    diagnosis = diagnose(one.detection, one.truth)
+    with sv.new_recording(tmp_path / "d.rrd", "d") as recording:
+        log_diagnosis(recording, diagnosis, one.detection, one.truth, "tower")
+    verify(tmp_path / "d.rrd")
+    read = Read(tmp_path / "d.rrd")
+    words = read.last(entities.DIAGNOSIS, "TextDocument:text").as_py()[0]
+    assert words.startswith("**tower**")
+    assert "too steep" in words
+    strips = read.last(entities.COUNTERFACTUAL, "LineStrips2D:strips").as_py()
+    repaired = [one for one in diagnosis.segments if one.cause != "truth doubtful" and one.proof]
+    assert len(strips) == len(repaired)
+    labels = read.last(f"{entities.SEGMENTS}/largest", "Boxes2D:labels").as_py()
+    assert diagnosis.main.cause in labels
+    assert diagnosis.causes[0] == diagnosis.main.cause
+    assert sorted(diagnosis.causes) == sorted({one.cause for one in diagnosis.segments})
+    assert read.array(entities.STACKED_COSTS, "Image:buffer").size > 10_000
+
+
+def test_the_viewer_gets_no_line_where_nothing_came_back(hazy, tmp_path, monkeypatch):
+    detection, truth = hazy
+    monkeypatch.setattr("skyline_viz.diagnosis.diagnosing._MOST_LINES", 1)
+    rows = truth.rows.copy()
+    rows[400] = detection.skyline.rows[400]
+    rows[401:] = detection.skyline.rows[401:] - 0.4
+    rows[700] -= 40
+    diagnosis = diagnose(detection, Skyline(rows=rows))
+    lost, narrow = diagnosis.segments
+    assert lost.proof is None
+    with sv.new_recording(tmp_path / "d.rrd", "d") as recording:
+        log_diagnosis(recording, diagnosis, detection, Skyline(rows=rows))
+    read = Read(tmp_path / "d.rrd")
+    strips = read.last(entities.COUNTERFACTUAL, "LineStrips2D:strips").as_py()
+    assert len(strips) == (narrow.proof is not None)
+    half = read.last(f"{entities.SEGMENTS}/largest", "Boxes2D:half_sizes").as_py()
+    assert [2 * one[0] for one in half] == [lost.length, 6]
+    assert diagnosis.markdown().startswith(f"**{lost.cause}")
+
+
+def test_stacked_costs_do_not_droop_at_the_rims():
+    np.testing.assert_allclose(smooth(np.ones(30)), 1)
+    assert len(smooth(np.arange(5.0))) == 5
