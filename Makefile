@@ -54,7 +54,7 @@ reliability: .venv/.installed-dev  ## The tables of docs/reliability.md: faults,
 
 pictures: .venv/.installed-dev  ## Draw the pictures of the docs again.
 	.venv/bin/skyline-viz inspect sample_data/images/hazy-1.jpg --truth sample_data/masks/hazy-1.png \
-	    --compare paper --screenshot docs/inspect.jpg
+	    --method default paper --screenshot docs/inspect.jpg
 	.venv/bin/python -m tools.viewer_pictures docs
 	.venv/bin/skyline-viz gallery sample_data --screenshot docs/gallery.jpg
 	.venv/bin/python -m tools.flag_picture docs

@@ -11,8 +11,8 @@ from annotate.commands.repairs import Repair
 from annotate.commands.reports import Agreement, Status
 from annotate.commands.transfer import Backup, Export, Import
 from skyline_viz import __version__
+from skyline_viz.command_line.methods import described
 from skyline_viz.command_line.program import Command, parsed, run_program
-from skyline_viz.command_line.settings import asked_preset, config_of
 
 _ABOUT = f"""Label mountain skylines: the detector proposes, a few clicks correct, nothing is lost.
 
@@ -38,7 +38,7 @@ def parse(arguments: list[str]) -> Command:
     """
     missing: Any = tyro.MISSING
     commands = {
-        "open": Open(missing, config=config_of(asked_preset(arguments))),
+        "open": Open(missing, methods=described(arguments)),
         "export": Export(missing),
         "import": Import(missing, missing),
         "status": Status(missing),

@@ -6,8 +6,8 @@ from typing import Annotated, Any, Union
 import tyro
 
 from skyline_viz import __version__
+from skyline_viz.command_line.methods import Methods, described
 from skyline_viz.command_line.program import Command, parsed, run_program
-from skyline_viz.command_line.settings import Preset, asked_preset, config_of
 from skyline_viz.commands.demo import Demo
 from skyline_viz.commands.detect import Detect
 from skyline_viz.commands.diagnose import Diagnose
@@ -41,23 +41,22 @@ def parse(arguments: list[str]) -> Command:
         SystemExit: After help was printed, or what is wrong with the words.
         ValueError: A setting has a value that it refuses.
     """
-    return parsed("skyline-viz", _ABOUT, _commands(asked_preset(arguments)), arguments)
+    return parsed("skyline-viz", _ABOUT, _commands(described(arguments)), arguments)
 
 
-def _commands(preset: Preset) -> Any:  # noqa: ANN401  # a union that is made at run time
-    """All commands as one type for tyro, with the preset's settings as defaults."""
-    config = config_of(preset)
+def _commands(methods: Methods) -> Any:  # noqa: ANN401  # a union that is made at run time
+    """All commands as one type for tyro, with what was described as defaults."""
     missing: Any = tyro.MISSING
     defaults = {
-        "detect": Detect(missing, config=config),
-        "inspect": Inspect(missing, config=config),
-        "gallery": GalleryCommand(config=config),
-        "train": Train(missing, missing, training=TrainingConfig(detector=config)),
-        "evaluate": Evaluate(missing, config=config),
-        "tables": Tables(missing),
-        "diagnose": Diagnose(missing, config=config),
+        "detect": Detect(missing, methods=methods),
+        "inspect": Inspect(missing, methods=methods),
+        "gallery": GalleryCommand(methods=methods),
+        "train": Train(missing, missing, training=TrainingConfig(detector=methods.config)),
+        "evaluate": Evaluate(missing, methods=methods),
+        "tables": Tables(missing, methods=methods),
+        "diagnose": Diagnose(missing, methods=methods),
         "render": Render(),
-        "demo": Demo(),
+        "demo": Demo(methods=methods),
     }
     kinds = tuple(
         Annotated[type(default), tyro.conf.subcommand(name, default=default)]

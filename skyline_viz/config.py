@@ -1,10 +1,11 @@
 """What can be chosen, with units and the reasons for the defaults. Light to import."""
 
-from dataclasses import dataclass, field, fields
-from numbers import Integral, Real
-from typing import Literal, TypeAlias
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields, replace
+from typing import Any, Literal, TypeAlias, get_type_hints
 
 from skyline_viz.bins import Bins
+from skyline_viz.system.settings import check_number, nearest_name
 
 EdgeSource: TypeAlias = Literal["grey", "colour"]
 """What Canny sees: the grey photo, as published, or the colour photo."""
@@ -57,7 +58,7 @@ class DetectorConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their range with a sentence that names the field."""
         for name, (low, high) in RANGES.items():
-            _check_number(name, getattr(self, name), low, high, whole=name in ("frame", "delta"))
+            check_number(name, getattr(self, name), low, high, whole=name in ("frame", "delta"))
         if not isinstance(self.fit_thresholds, bool):
             raise ValueError(f"fit_thresholds is True or False, not {self.fit_thresholds!r}")
         if self.edge_source not in ("grey", "colour"):
@@ -97,6 +98,35 @@ class DetectorConfig:
             link_weight=0.0,
         )
 
+    @classmethod
+    def presets(cls) -> dict[str, "DetectorConfig"]:
+        """Configurations that have a name."""
+        return {"default": cls(), "paper": cls.paper()}
+
+    @property
+    def name(self) -> str:
+        """The nearest preset, and the settings that differ from it.
+
+        >>> DetectorConfig(delta=10, v=0.9).name
+        'default:v=0.9,delta=10'
+        """
+        presets = {name: asdict(preset) for name, preset in self.presets().items()}
+        return nearest_name(asdict(self), presets)
+
+    @classmethod
+    def kinds(cls) -> dict[str, object]:
+        """Type of each setting."""
+        return get_type_hints(cls)
+
+    def with_settings(self, values: Mapping[str, object]) -> "DetectorConfig":
+        """The same with other settings.
+
+        Raises:
+            ValueError: One has a value that it refuses.
+        """
+        changes: dict[str, Any] = dict(values)
+        return replace(self, **changes)
+
 
 RANGES: dict[str, tuple[float, float]] = {
     "low_threshold": (0, 1e5),
@@ -134,16 +164,8 @@ class TrainingConfig:
 
     def __post_init__(self) -> None:
         """Refuse values outside their range with a sentence that names the field."""
-        _check_number("filter_size", self.filter_size, 3, 15, whole=True)
+        check_number("filter_size", self.filter_size, 3, 15, whole=True)
         if self.filter_size not in FILTER_SIZES:
             raise ValueError(f"filter_size is one of {FILTER_SIZES}, not {self.filter_size}")
-        _check_number("band", self.band, 0, 1e6)
-        _check_number("smoothness", self.smoothness, 0, 1e12)
-
-
-def _check_number(name: str, value: object, low: float, high: float, whole: bool = False) -> None:
-    """Refuse anything but a number in a range, with a sentence that names the field."""
-    kind = "whole number" if whole else "number"
-    numeric = isinstance(value, Integral if whole else Real) and not isinstance(value, bool)
-    if not (numeric and low <= value <= high):  # type: ignore[operator]  # numeric says it is one
-        raise ValueError(f"{name} is a {kind} from {low:g} to {high:g}, not {value!r}")
+        check_number("band", self.band, 0, 1e6)
+        check_number("smoothness", self.smoothness, 0, 1e12)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from time import perf_counter
 from types import MappingProxyType
@@ -17,10 +17,12 @@ from skyline_viz.cost import CostModel
 from skyline_viz.edges import edge_pixels
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import shortest_path
-from skyline_viz.skyline import Skyline
+from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage import COST, EDGES, PATH, SCORE, Quantity, Stage
 from skyline_viz.terms import Link
 from skyline_viz.uncertainty import Uncertainty, uncertainty
+
+_STEEPEST = 1 / 12  # change of row between neighbouring columns, as a share of the height
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -152,6 +154,49 @@ class Detection:
     def total_seconds(self) -> float:
         """Seconds of all stages."""
         return sum(self.seconds.values())
+
+    @classmethod
+    def of_line(
+        cls,
+        photo: U8,
+        skyline: Skyline,
+        *,
+        method: str,
+        seconds: dict[str, float] | None = None,
+    ) -> Detection:
+        """A detection of which only the line is known.
+
+        It is that of a method for which every pixel is a candidate, and costs its distance from
+        the line over the height of the photo. So the line is the cheapest path, and its margins
+        say nothing.
+
+        Args:
+            photo: ``(H, W, 3)`` uint8 RGB.
+            skyline: The line.
+            method: Name of the method.
+            seconds: Seconds of the stages that led to it.
+
+        Raises:
+            SkylineError: The line has another width than the photo.
+        """
+        height, width = photo.shape[:2]
+        if skyline.width != width:
+            raise SkylineError(f"the photo is {width} columns wide, the skyline {skyline.width}")
+        line = skyline.pixel_rows(height).clip(0, height - 1)
+        away = np.abs(np.arange(height)[:, None] - line[None, :])
+        cost = (away / height).astype(np.float32)
+        found = solve_detection(
+            method,
+            photo,
+            np.ones(cost.shape, np.bool_),
+            (1 - cost).ravel(),
+            cost,
+            dict(seconds or {}),
+            delta=max(int(np.abs(np.diff(line)).max(initial=0)), round(height * _STEEPEST), 1),
+            link_weight=0.0,
+            non_edge_cost=1.0,
+        )
+        return replace(found, skyline=skyline)
 
 
 def solve_detection(

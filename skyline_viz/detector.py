@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass, field, replace
 from functools import cache, cached_property, lru_cache, partial
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from skyline_viz.arrays import F32, U8, Bool, Int, check_photo
 from skyline_viz.bins import Bins
@@ -16,13 +19,19 @@ from skyline_viz.cost import CostModel, Seen
 from skyline_viz.datasets.item import Item
 from skyline_viz.detection import Detection, timed
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
-from skyline_viz.filter_bank import FilterBank
+from skyline_viz.files import replacing
+from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
 from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
 from skyline_viz.skyline import Skyline
 from skyline_viz.stage import BIN, COHERENCE, EDGES, ORIENTATION, SCORE, STRENGTH, Stage
+from skyline_viz.system import headed_npz
+from skyline_viz.system.headed_npz import HeadedNpz, NpzError
 from skyline_viz.tensor import tensor_at, tensor_map
 from skyline_viz.training import GramMatrices, gather_item, solve, train
+
+FILTERS = "filters"
+"""What our detector is called as a method in the header of a file."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -122,10 +131,13 @@ class Detector:
     config: DetectorConfig = field(default_factory=DetectorConfig)
     """The configuration."""
 
+    label: str = ""
+    """What it is called; empty to be called after its configuration."""
+
     @property
     def name(self) -> str:
-        """``default``, or ``paper`` with the published settings."""
-        return "paper" if self.config == DetectorConfig.paper() else "default"
+        """Its label, or ``default``, ``paper`` or the nearer one and what differs from it."""
+        return self.label or self.config.name
 
     @property
     def training(self) -> TrainingConfig:
@@ -185,6 +197,80 @@ class Detector:
     def sharing(self, other: Detector) -> Detector:
         """This detector with the filters of another one."""
         return replace(self, bank=other.bank)
+
+    def settings(self) -> dict[str, object]:
+        """The configuration, by name."""
+        return asdict(self.config)
+
+    def kinds(self) -> dict[str, object]:
+        """Type of each setting."""
+        return self.config.kinds()
+
+    def with_settings(self, values: Mapping[str, object]) -> Detector:
+        """The same filters with other settings.
+
+        Raises:
+            ValueError: One has a value that it refuses.
+        """
+        return replace(self, config=self.config.with_settings(values))
+
+    def own_name(self) -> str:
+        """What it is called without a label."""
+        return self.config.name
+
+    def labelled(self, label: str) -> Detector:
+        """The same under another name."""
+        return replace(self, label=label)
+
+    def header(self) -> dict[str, Any]:
+        """What its file says of it."""
+        about = {"method": FILTERS, "label": self.label, "settings": asdict(self.config)}
+        return {**about, **self.bank.header()}
+
+    def arrays(self) -> dict[str, npt.NDArray[Any]]:
+        """The arrays of its file."""
+        return self.bank.arrays()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write one ``.npz`` file with bank, configuration and label, whole or not at all."""
+        with replacing(path) as temporary, temporary.open("wb") as file:
+            headed_npz.write(file, self.header(), self.arrays())
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str] | bytes) -> Detector:
+        """Read what `save` wrote, or a filter bank; nothing is ever unpickled.
+
+        A bank brings the settings for which it was trained. One of an earlier version knows of
+        them only whether Canny saw the grey photo; the others are the default ones then.
+
+        Raises:
+            FilterBankError: Missing, damaged, another kind of file, or of a newer version.
+        """
+        with bank_file(path) as file:
+            return cls.read(file, path)
+
+    @classmethod
+    def read(cls, file: HeadedNpz, path: str | os.PathLike[str] | bytes) -> Detector:
+        """The detector in an open file.
+
+        Raises:
+            FilterBankError: There is none, or of another version, or it is not valid.
+            NpzError: It is damaged.
+        """
+        bank, header = read_bank(file, path), file.header
+        if "method" not in header:
+            return cls(bank, bank.provenance.settings)
+        label, settings = header.get("label"), header.get("settings")
+        told = isinstance(label, str) and isinstance(settings, dict)
+        if header["method"] != FILTERS or not told:
+            raise NpzError("its header names no detector")
+        if further := sorted(name for name in file.arrays if "__" in name):
+            raise NpzError(f"it holds {further[0][:40]}, which this version does not know")
+        try:
+            return cls(bank, DetectorConfig(**dict(settings or {})), str(label))
+        except (TypeError, ValueError) as error:
+            reason = f": {error}" if isinstance(error, ValueError) else ""
+            raise NpzError(f"its settings are none of a detector{reason}") from error
 
     def detect(self, photo: U8) -> FilterDetection:
         """Find the skyline of a photo.

@@ -1,8 +1,8 @@
 """The filter bank: a small linear filter for every bin, and where it comes from."""
 
-import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field, fields
 from importlib import resources
 from typing import Any
@@ -12,17 +12,20 @@ import numpy.typing as npt
 
 from skyline_viz.arrays import F32, read_only
 from skyline_viz.bins import Bins
-from skyline_viz.config import FILTER_SIZES
+from skyline_viz.config import FILTER_SIZES, DetectorConfig, EdgeSource
 from skyline_viz.files import replacing
-from skyline_viz.system.headed_npz import NpzError, Stored, opened
+from skyline_viz.system import headed_npz
+from skyline_viz.system.headed_npz import HeadedNpz, NpzError, Stored, opened
 from skyline_viz.terrain import FEATURES
 
-FORMAT = "skyline-viz filter bank"
-VERSION = 1
+EARLIER_FORMAT, EARLIER_VERSION = "skyline-viz filter bank", 1
+"""How the header of banks began that were written before detectors were files."""
+
 STARVED_SAMPLES = 50
 """A bin is starved when fewer training samples than this fell into it."""
 
-_MOST_BYTES = 1 << 26  # that a bank may take: a thousand bins of the largest filters take 1 MB
+MOST_BYTES = 1 << 26
+"""Bytes that a bank may take: a thousand bins of the largest filters take 1 MB."""
 
 _DTYPES = {
     "filters": np.dtype(np.float32),
@@ -56,6 +59,17 @@ class Provenance:
 
     package: str = ""
     """Version of skyline-viz."""
+
+    detector: DetectorConfig | None = None
+    """Settings of the detector for which it was trained; banks of earlier versions know none."""
+
+    @property
+    def settings(self) -> DetectorConfig:
+        """Settings to detect with: those that it was trained for, as far as they are known."""
+        if self.detector is not None:
+            return self.detector
+        known: EdgeSource = "grey" if self.edges == "grey" else "colour"
+        return DetectorConfig(edge_source=known)
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,49 +131,26 @@ class FilterBank:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write one ``.npz`` file, whole or not at all; the same bank gives the same bytes."""
-        header = {
-            "format": FORMAT,
-            "version": VERSION,
-            "bins": asdict(self.bins),
-            "provenance": asdict(self.provenance),
-        }
-        arrays = {
-            "header": np.frombuffer(json.dumps(header).encode(), np.uint8),
-            "filters": self.filters,
-            "samples": self.samples,
-            "terrain": self.terrain,
-        }
         with replacing(path) as temporary, temporary.open("wb") as file:
-            np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # ** reaches allow_pickle
+            headed_npz.write(file, self.header(), self.arrays())
+
+    def header(self) -> dict[str, Any]:
+        """What a file that holds the bank says of it."""
+        return {"bank": {"bins": asdict(self.bins), "provenance": asdict(self.provenance)}}
+
+    def arrays(self) -> dict[str, npt.NDArray[Any]]:
+        """The arrays of a file that holds the bank."""
+        return {"filters": self.filters, "samples": self.samples, "terrain": self.terrain}
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> "FilterBank":
-        """Read what `save` wrote; nothing is ever unpickled.
+        """Read what `save` wrote, or the bank of a detector's file; nothing is ever unpickled.
 
         Raises:
             FilterBankError: Missing, damaged, another kind of file, or of a newer version.
         """
-        try:
-            with opened(path, _MOST_BYTES) as file:
-                header = file.header
-                if header.get("format") != FORMAT:
-                    raise FilterBankError(f"{path} is not a filter bank.")
-                if header.get("version") != VERSION:
-                    raise FilterBankError(
-                        f"{path} is a filter bank of version {str(header.get('version'))[:20]}; "
-                        f"this program reads version {VERSION}."
-                    )
-                bins, provenance = _described(header)
-                _check_announced(file.arrays, bins.count)
-                filters, samples, terrain = (file.read(name) for name in _DTYPES)
-        except FileNotFoundError:
-            raise FilterBankError(f"{path} does not exist.") from None
-        except NpzError as error:
-            raise FilterBankError(f"{path} is damaged or not a filter bank: {error}.") from error
-        try:
-            return cls(filters, samples, terrain, bins, provenance)
-        except (ValueError, TypeError) as error:
-            raise FilterBankError(f"{path} holds no valid filter bank: {error}.") from error
+        with bank_file(path) as file:
+            return read_bank(file, path)
 
     @classmethod
     def default(cls) -> "FilterBank":
@@ -168,20 +159,67 @@ class FilterBank:
             return cls.load(path)
 
 
+@contextmanager
+def bank_file(path: str | os.PathLike[str] | bytes) -> Iterator[HeadedNpz]:
+    """The open file of a bank, or of a detector.
+
+    Raises:
+        FilterBankError: It is missing, or turns out to be damaged in the block.
+    """
+    name = "the bank" if isinstance(path, bytes) else str(path)
+    try:
+        with opened(path, MOST_BYTES) as file:
+            yield file
+    except FileNotFoundError:
+        raise FilterBankError(f"{name} does not exist.") from None
+    except NpzError as error:
+        raise FilterBankError(f"{name} is damaged or not a filter bank: {error}.") from error
+
+
+def read_bank(file: HeadedNpz, path: str | os.PathLike[str] | bytes) -> FilterBank:
+    """The bank in an open file, which may hold more than that.
+
+    Raises:
+        FilterBankError: There is none, or of another version, or it is not valid.
+        NpzError: It is damaged.
+    """
+    name = "the bank" if isinstance(path, bytes) else str(path)
+    header, version = file.header, headed_npz.VERSION
+    told = header.get("bank")
+    if header.get("format") == EARLIER_FORMAT:
+        told, version = header, EARLIER_VERSION
+    elif header.get("format") != headed_npz.FORMAT or told is None:
+        raise FilterBankError(f"{name} is not a filter bank.")
+    if header.get("version") != version:
+        raise FilterBankError(
+            f"{name} is a filter bank of version {str(header.get('version'))[:20]}; "
+            f"this program reads version {version}."
+        )
+    bins, provenance = _described(told)
+    _check_announced(file.arrays, bins.count)
+    filters, samples, terrain = (file.read(part) for part in _DTYPES)
+    try:
+        return FilterBank(filters, samples, terrain, bins, provenance)
+    except (ValueError, TypeError) as error:
+        raise FilterBankError(f"{name} holds no valid filter bank: {error}.") from error
+
+
 def _described(header: dict[str, Any]) -> tuple[Bins, Provenance]:
-    """Bins and provenance as a header tells them.
+    """Bins and provenance as the part of a header about the bank tells them.
 
     Raises:
         NpzError: It tells something else.
     """
     try:
-        bins, told = Bins(**header["bins"]), header["provenance"]
+        bins, told = Bins(**header["bins"]), dict(header["provenance"])
+        settings = told.pop("detector", None)
+        detector = None if settings is None else DetectorConfig(**settings)
         kinds = {one.name: type(one.default) for one in fields(Provenance)}
         for name, value in told.items():
             wanted = (int, float) if kinds[name] is float else kinds[name]
             if not isinstance(value, wanted) or isinstance(value, bool):
                 raise NpzError(f"its header tells no {name}")
-        return bins, Provenance(**told)
+        return bins, Provenance(**told, detector=detector)
     except NpzError:
         raise
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
@@ -203,5 +241,5 @@ def _check_announced(arrays: Mapping[str, Stored], count: int) -> None:
             raise NpzError(f"its {name} has another type")
         if arrays[name].shape != shapes[name]:
             raise NpzError(f"its {name} has the shape {arrays[name].shape}, not {shapes[name]}")
-    if more := set(arrays) - set(_DTYPES):
+    if more := {name for name in arrays if "__" not in name} - set(_DTYPES):
         raise NpzError(f"it holds {min(more)[:40]}, which no bank has")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Protocol, Self, TypeVar, runtime_checkable
+from typing import Any, ClassVar, Protocol, Self, TypeVar, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,7 @@ from skyline_viz.datasets.item import Item
 from skyline_viz.detection import Detection
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.headed_npz import Stored
+from skyline_viz.system.settings import Configured
 
 Model = Mapping[str, npt.NDArray[np.generic]]
 """What a method has learned: arrays by name, as they are written to a file."""
@@ -27,12 +28,16 @@ class MethodError(ValueError):
     """A method is unknown, has not been trained, or lacks a package; the message says which."""
 
 
+class UnnamedClassError(MethodError):
+    """A file was made by a class that nobody has named; the message says how to."""
+
+
 class Method(Protocol):
     """Finds skylines."""
 
     @property
     def name(self) -> str:
-        """Its name, one of `names.MethodName` or that of a file."""
+        """What it is called in tables and reports: a name with settings, a file's, or a label."""
 
     def detect(self, photo: U8) -> Detection:
         """Find the skyline of a photo.
@@ -101,20 +106,54 @@ class AddingLearner(Learner, Protocol[Sums]):
         """
 
 
+@runtime_checkable
+class Configurable(Method, Protocol):
+    """A method that can be named with settings, and written to a file."""
+
+    @property
+    def label(self) -> str:
+        """What it is called instead of after its settings; empty where it is not."""
+
+    def labelled(self, label: str) -> Self:
+        """The same under another name."""
+
+    def own_name(self) -> str:
+        """What it is called without a label."""
+
+    def settings(self) -> dict[str, object]:
+        """Its settings by name."""
+
+    def kinds(self) -> dict[str, object]:
+        """Type of each setting that can be given as text."""
+
+    def with_settings(self, values: Mapping[str, object]) -> Self:
+        """The same with other settings.
+
+        Raises:
+            ValueError: One is unknown, of another kind, or out of its range.
+        """
+
+    def arrays(self) -> Mapping[str, npt.NDArray[Any]]:
+        """What it has learned, by name."""
+
+
 @dataclass(frozen=True)
-class LearnedMethod:
+class LearnedMethod(Configured):
     """What methods with a `Model` have in common."""
 
-    name: str
-    """Its name."""
+    UNSET: ClassVar = frozenset({"label", "model"})
 
     model: Model = field(default_factory=dict)
     """What it has learned; empty before training."""
 
     @property
     def family(self) -> str:
-        """Methods of one family learn the same; here those whose names begin alike."""
-        return self.name
+        """Methods of one family learn the same; here those of one class and the same settings."""
+        return f"{type(self).__name__} {self.settings()}"
+
+    def arrays(self) -> Model:
+        """See `Configurable.arrays`."""
+        return self.model
 
     def learn(self, items: Sequence[Item], seed: int) -> Model:
         """What there is to learn from photos with truth."""
@@ -183,7 +222,7 @@ class LearnedMethod:
         if not self.model:
             raise MethodError(
                 f"{self.name} has learned nothing yet; train it with: "
-                f"skyline-viz train DATASET --method {self.name} --out FILE"
+                f"skyline-viz train DATASET --method {self.own_name()} --out FILE"
             )
 
 

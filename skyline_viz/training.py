@@ -191,6 +191,7 @@ def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = 
             edges=config.detector.edge_source,
             smoothness=config.smoothness,
             package=__version__,
+            detector=config.detector,
         ),
     )
 

@@ -88,7 +88,7 @@ def test_usage_errors_end_with_2(say, words):
         (["train", "HILLS", "--out", "b.npz", "--training.bins.strengths", "0"], "strengths is"),
         (["train", "HILLS/images", "--out", "b.npz"], "images holds no truth for any"),
         (["evaluate", "HILLS", "--folds", "5"], "from 2 to the 4 photos, not 5."),
-        (["evaluate", "HILLS", "--folds", "2", "--bank", "b.npz"], "leave out --bank."),
+        (["evaluate", "HILLS", "--folds", "2", "--bank", "b.npz"], "b.npz has learned already"),
         (["evaluate", "HILLS", "--seed", "-1"], "a seed is 0 or more, not -1."),
         (["render", "--seed", "3"], "are for scenes of a --kind."),
         (["render", "--kind", "lunar"], "a scene is one of clear, "),

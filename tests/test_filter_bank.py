@@ -12,9 +12,10 @@ import pytest
 
 import skyline_viz
 from skyline_viz.bins import Bins
-from skyline_viz.config import FILTER_SIZES
+from skyline_viz.config import FILTER_SIZES, DetectorConfig
 from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank, FilterBankError, Provenance
 from skyline_viz.terrain import FEATURES
+from testing.methods import write_bank
 
 SMALL = Bins(2, 2, 1, 0.7, 10, 99)
 
@@ -298,11 +299,30 @@ def test_a_missing_array(saved, name):
     refused(saved)
 
 
-@pytest.mark.parametrize("version", [2, 0, None, "1", [1]])
+@pytest.mark.parametrize("version", [3, 0, None, "2", [2]])
 def test_other_versions_are_told(saved, version):
     with_entry(saved, "header", header(saved, version=version))
     sentence = refused(saved)
-    assert f"of version {version}; this program reads version 1" in sentence
+    assert f"of version {version}; this program reads version 2" in sentence
+
+
+def test_a_bank_of_an_earlier_version_is_read(tmp_path):
+    path = write_bank(small(), tmp_path / "bank.npz")
+    again = FilterBank.load(path)
+    assert np.array_equal(again.filters, small().filters)
+    assert (again.bins, again.provenance) == (small().bins, small().provenance)
+    assert again.provenance.detector is None
+    assert again.provenance.settings == DetectorConfig(edge_source="grey")
+    with_entry(path, "header", header(path, version=2))
+    assert "of version 2; this program reads version 1" in refused(path)
+
+
+def test_a_bank_knows_the_settings_it_was_trained_for(tmp_path):
+    made = Provenance("hills", detector=DetectorConfig.paper())
+    small(provenance=made).save(tmp_path / "bank.npz")
+    again = FilterBank.load(tmp_path / "bank.npz")
+    assert again.provenance == made
+    assert again.provenance.settings == DetectorConfig.paper()
 
 
 @pytest.mark.parametrize(
@@ -319,11 +339,23 @@ def test_other_versions_are_told(saved, version):
         {"bins": {"coherences": 1000, "strengths": 1000, "orientations": 1000}},
         {"provenance": None},
         {"provenance": {"author": "me"}},
+        {"provenance": {"detector": 3}},
+        {"provenance": {"detector": {"delta": -1}}},
+        {"provenance": {"detector": {"slope": 1}}},
     ],
     ids=repr,
 )
 def test_other_headers(saved, changes):
+    told = small().header()["bank"]
+    if "format" not in changes:
+        changes = {"bank": {**told, **changes}}
     with_entry(saved, "header", header(saved, **changes))
+    refused(saved)
+
+
+@pytest.mark.parametrize("bank", [None, 3, "x", [], {}, [["bins", 1]]], ids=repr)
+def test_headers_that_tell_of_no_bank(saved, bank):
+    with_entry(saved, "header", header(saved, bank=bank))
     refused(saved)
 
 

@@ -15,7 +15,7 @@ def main(folder):
     """Draw the tabs Sweep, of a hazy sample, and Methods, of a clear one."""
     # the Canny thresholds dragged to where the far ridge is found
     draw("hazy-1", ["--sweep"], "Sweep", ("canny_thresholds", 40), folder / "inspect-sweep.jpg")
-    methods = ["--method", "paper", "edges", "gradient"]
+    methods = ["--method", "default", "paper", "edges", "gradient"]
     draw("clear-2", methods, "Methods", None, folder / "inspect-methods.jpg")
 
 

@@ -21,9 +21,8 @@ from annotate.commands.options import (
 from annotate.store.labels import MOST_PASSES
 from skyline_viz.command_line.messages import GOOD, UsageError, counted, say, tell
 from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import BankFile, Preset, Switch, make_detector
+from skyline_viz.command_line.settings import Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, say_too_large
-from skyline_viz.config import DetectorConfig
 from skyline_viz.system.endings import told_by_signals
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
@@ -61,12 +60,6 @@ class Open:
     methods: MethodOptions = field(default_factory=Methods)
     """Another method to propose with than ours."""
 
-    bank: BankFile = None
-    """Filter bank to propose with; the shipped one unless given."""
-
-    preset: Preset = "default"
-    """Where the settings below start from: the best that is known, or the published method."""
-
     host: Annotated[str, tyro.conf.arg(metavar="ADDRESS")] = "127.0.0.1"
     """Address to listen on; any other than the default lets other machines in."""
 
@@ -78,9 +71,6 @@ class Open:
 
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
-
-    config: DetectorConfig = field(default_factory=DetectorConfig)
-    """Single settings of the detector."""
 
     def run(self) -> int:
         """Serve until Ctrl-C; return the exit status."""
@@ -116,10 +106,7 @@ class Open:
         )
         doubts = read_doubts(self.from_diagnosis) if self.from_diagnosis else None
         detector: Method
-        if self.methods.given:
-            detector = self.methods.one(self.bank, self.config)
-        else:
-            detector = make_detector(self.bank, self.config)
+        detector = self.methods.one()
         bench = Workbench(Store(self.folder), detector, who, doubts)
         if doubts is not None and not bench.photos:
             raise UsageError(f"{self.from_diagnosis} doubts no truth of a photo in {self.folder}.")

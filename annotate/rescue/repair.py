@@ -36,6 +36,7 @@ from annotate.store.lines import Line, LineError
 from annotate.store.readable import named, reading_label
 from annotate.store.store import Store
 from skyline_viz.files import flush, replacing
+from skyline_viz.method import UnnamedClassError
 
 
 @dataclass
@@ -158,7 +159,9 @@ def _drop_proposals(database: sqlite3.Connection) -> list[str]:
                     Line.unpacked(proposal)
                 if bank is not None:
                     unpack(config, bank)
-        except LogError:
+        except LogError as error:
+            if isinstance(error.__cause__, UnnamedClassError):
+                continue  # nothing is damaged, and who wrote that class can name it
             database.execute(
                 "UPDATE labels SET proposal = NULL, detector = NULL, margin = NULL WHERE id = ?",
                 (label,),

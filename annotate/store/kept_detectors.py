@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import sqlite3
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 from skyline_viz import __version__
 from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
-from skyline_viz.filter_bank import FilterBank
 from skyline_viz.method import Method
-from skyline_viz.methods.registry import Trained, load_method, method_digest, save_method
-from skyline_viz.system.aftermath import passing_folder
+from skyline_viz.methods.finding.method_files import header_of
+from skyline_viz.methods.finding.plugins import as_method
+from skyline_viz.methods.registry import load_method, method_digest
+from skyline_viz.system import headed_npz
 
 
 @dataclass(frozen=True)
@@ -21,44 +21,31 @@ class KeptDetector:
     """A detector, or another method, as text and bytes."""
 
     digest: str
-    """SHA-256 of settings and filter bank."""
+    """SHA-256 of its settings and of what it has learned."""
 
     about: str
     """What it is, in words."""
 
     config: str
-    """Its settings, as JSON; of another method its name, under ``method``."""
+    """Its name under ``method``, as JSON; earlier versions kept settings of our detector."""
 
     bank: bytes
-    """Its filter bank, as `FilterBank.save` writes it, or the method, as `save_method` does."""
+    """The content of its file, see `Detector.save` and `save_method`."""
 
 
 def pack(method: Method) -> KeptDetector:
     """Turn a detector or another method into text and bytes."""
-    return _pack_detector(method) if isinstance(method, Detector) else _pack_method(method)
-
-
-def _pack_method(method: Method) -> KeptDetector:
-    with passing_folder() as folder:
-        file = folder / "method.npz"
-        save_method(method, file, Trained())
-        kept = file.read_bytes()
-    config = json.dumps({"method": method.name})
-    digest = method_digest(method)
-    about = f"skyline-viz {__version__}, method {method.name}, {digest[:12]}"
-    return KeptDetector(digest, about, config, kept)
-
-
-def _pack_detector(detector: Detector) -> KeptDetector:
-    with passing_folder() as folder:
-        file = folder / "bank.npz"
-        detector.bank.save(file)
-        bank = file.read_bytes()
-    config = json.dumps(asdict(detector.config), sort_keys=True)
-    digest = hashlib.sha256(config.encode() + bank).hexdigest()
-    learned = detector.bank.provenance.dataset or "photos without a name"
-    about = f"skyline-viz {__version__}, filters learned from {learned}, {digest[:12]}"
-    return KeptDetector(digest, about, config, bank)
+    known, digest = as_method(method), method_digest(method)
+    what = f"method {known.name}"
+    if isinstance(known, Detector):
+        learned = known.bank.provenance.dataset or "photos without a name"
+        what = f"{known.name}, filters learned from {learned}"
+    return KeptDetector(
+        digest,
+        f"skyline-viz {__version__}, {what}, {digest[:12]}",
+        json.dumps({"method": known.name}),
+        headed_npz.packed(header_of(known), known.arrays()),
+    )
 
 
 def unpack(config: str, bank: bytes) -> Method:
@@ -68,13 +55,10 @@ def unpack(config: str, bank: bytes) -> Method:
     >>> same.config == DetectorConfig()
     True
     """
-    with passing_folder() as folder:
-        file = folder / "bank.npz"
-        file.write_bytes(bank)
-        settings = json.loads(config)
-        if "method" in settings:
-            return load_method(file)
-        return Detector(FilterBank.load(file), DetectorConfig(**settings))
+    settings = json.loads(config)
+    if "method" in settings:
+        return load_method(bank)
+    return Detector(Detector.load(bank).bank, DetectorConfig(**settings))
 
 
 def keep_detector(database: sqlite3.Connection, detector: Method) -> int:

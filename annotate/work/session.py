@@ -49,8 +49,8 @@ class Session:
         self._store = store
         self._opened = Opened(store, photo)
         self.pixels: U8 = self._opened.pixels
-        kept = store.detector(label)
-        self.detector = kept if kept and store.state(label).revision else detector
+        begun = store.state(label).revision > 0  # before, whatever proposes now may
+        self.detector = (begun and store.detector(label)) or detector
         self.wire = LiveWire(self.pixels, None if blind else self.detector, keep=keep)
         self.state = store.state(label)
         if self.state.revision == 0 and not blind:

@@ -33,6 +33,9 @@ def measured() -> list[Trial]:
         place = Path(folder)
         bank, *methods = _files(place)
         trials = [_trial("a damaged filter bank", [bank], _BANKS, _bank, place)]
+        sv.find_method("steep=paper:delta=4").save(place / "detector.npz")
+        detector = [place / "detector.npz"]
+        trials.append(_trial("a damaged detector", detector, _BANKS, sv.Detector.load, place))
         trials.append(_trial("a damaged method file", methods, _METHODS, load_method, place))
         trials.append(_networks(place))
     return trials

@@ -1,28 +1,35 @@
-"""The options that choose methods: ours, the earlier ones, and networks from files."""
+"""The options that say what detects: methods by what they are named, and short forms of such."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated, TypeAlias, get_args
 
 import tyro
 
 from skyline_viz.command_line.messages import UsageError
+from skyline_viz.command_line.settings import BankFile, Preset
 from skyline_viz.config import DetectorConfig
+from skyline_viz.system.settings import spelt
 
 if TYPE_CHECKING:
-    from skyline_viz.method import Method
+    from skyline_viz.method import Configurable
 
 MethodTexts: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="METHOD [METHOD ...]")]
+"""Methods by what they are named, see `methods.specs`."""
 
 
 @dataclass(frozen=True)
 class Methods:
-    """Which methods to use."""
+    """What detects: our detector as the short forms describe it, and methods that are named."""
 
     method: MethodTexts = ()
-    """Methods by name (default, paper, edges, gradient, svm-dcsi, ...) or file of a trained one."""
+    """Methods, each [LABEL=](NAME | FILE | package.module:Class)[:setting=value,...]: default,
+    paper:delta=4, svm-dcsi, bank.npz, steep=paper:delta=4."""
 
     network: Annotated[Path | None, tyro.conf.arg(metavar="FILE.onnx")] = None
     """A network that segments the sky, as one more method."""
@@ -30,68 +37,124 @@ class Methods:
     sky_class: int = 0
     """Which class of the network is sky, from 0; 0 where it gives the sky alone."""
 
+    bank: BankFile = None
+    """File of a detector or filter bank, with its settings unless --preset says others."""
+
+    preset: Preset = "default"
+    """Where the settings below start from: the best that is known, or the published method."""
+
+    config: DetectorConfig = field(default_factory=DetectorConfig)
+    """Single settings of our detector."""
+
+    ours: tyro.conf.Suppress[bool] = False
+    """Whether our detector was described by a short form, and so is one of the methods."""
+
     @property
     def given(self) -> bool:
-        """Whether any was named."""
-        return bool(self.method or self.network)
+        """Whether anything was named."""
+        return bool(self.method or self.network or self.ours)
 
-    def chosen(
-        self,
-        *,
-        bank: Path | None = None,
-        config: DetectorConfig | None = None,
-        to_train: bool = False,
-    ) -> list[Method]:
-        """The methods, in the order named.
+    def chosen(self, *, to_train: bool = False) -> list[Configurable]:
+        """The methods in the order named, that of the short forms first; the default one if none.
 
         Args:
-            bank: A filter bank that was named besides; it would be ignored, so it is refused.
-            config: Settings of our detector; other ones than the default would be ignored, too.
             to_train: Whether those that learn are going to be trained.
 
         Raises:
-            UsageError: One is named twice, what was given would be ignored, or a trained method
-                is to be trained.
+            UsageError: Two have one name, or what has learned already is to be trained.
             MethodError: There is none of that name, its file is damaged, or it was not trained.
         """
         from skyline_viz.method import LearnedMethod  # noqa: PLC0415
-        from skyline_viz.methods.registry import NAMES, find_method  # noqa: PLC0415
+        from skyline_viz.methods.registry import find_method, has_learned  # noqa: PLC0415
+        from skyline_viz.methods.sky_network import SkyNetwork  # noqa: PLC0415
 
-        if self.given and bank is not None:
-            raise UsageError("leave out --bank: with --method, its file can be named as a method.")
-        if self.given and config not in (None, DetectorConfig()):
-            raise UsageError("leave out --preset and --config: a --method has settings of its own.")
-        if to_train and (file := next((one for one in self.method if one not in NAMES), None)):
+        if to_train and (file := next(filter(has_learned, self.method), self.bank)):
             raise UsageError(
                 f"{file} has learned already, and would be trained anew; name a method."
             )
-        found = [find_method(text) for text in self.method]
+        found = [] if self.given and not self.ours else [self._ours()]
+        found += map(find_method, self.method)
         if self.network is not None:
-            from skyline_viz.methods.sky_network import SkyNetwork  # noqa: PLC0415
-
-            network = SkyNetwork(self.network, self.sky_class)
-            network.check()
+            network = SkyNetwork(self.network).with_settings({"sky_class": self.sky_class})
             found.append(network)
-        names = [one.name for one in found]
-        twice = sorted({name for name in names if names.count(name) > 1})
+        twice = [name for name, count in Counter(one.name for one in found).items() if count > 1]
         if twice:
-            raise UsageError(f"the method {twice[0]} is named twice.")
+            raise UsageError(
+                f"the method {twice[0]} is named twice; give one a label: other={twice[0]}."
+            )
         for one in found:
+            if isinstance(one, SkyNetwork):
+                one.check()
             if isinstance(one, LearnedMethod) and not to_train:
                 one.require_trained()
         return found
 
-    def one(self, bank: Path | None, config: DetectorConfig, *, to_train: bool = False) -> Method:
-        """The only method; takes what `chosen` takes.
+    def one(self, *, to_train: bool = False) -> Configurable:
+        """The only method.
 
         Raises:
             UsageError: There are several, or one of the reasons of `chosen`.
         """
-        found = self.chosen(bank=bank, config=config, to_train=to_train)
+        found = self.chosen(to_train=to_train)
         if len(found) != 1:
-            raise UsageError(f"one method can be used here, and {len(found)} are named.")
+            names = ", ".join(method.name for method in found)
+            raise UsageError(f"one method can be used here, and {len(found)} are named: {names}.")
         return found[0]
+
+    def _ours(self) -> Configurable:
+        """The detector that bank, preset and settings describe together."""
+        from skyline_viz.detector import Detector  # noqa: PLC0415
+        from skyline_viz.methods.registry import find_method  # noqa: PLC0415
+
+        if self.bank is None:
+            return Detector(config=self.config)
+        base, _, settings = self.config.name.partition(":")
+        brought = find_method(str(self.bank))
+        if not isinstance(brought, Detector):
+            raise UsageError(f"{self.bank} is a method, not a filter bank; name it with --method.")
+        own, wanted = asdict(brought.config), asdict(self.config)
+        differ = [f"{one}={spelt(value)}" for one, value in wanted.items() if value != own[one]]
+        if len(differ) > settings.count("=") + 1:  # it is nearer to a preset than to its own
+            differ = (
+                [f"model={self.bank}", *settings.split(",")] if settings else [f"model={self.bank}"]
+            )
+            return find_method(f"{base}:{','.join(differ)}")
+        return find_method(f"{self.bank}:{','.join(differ)}" if differ else str(self.bank))
 
 
 MethodOptions: TypeAlias = Annotated[Methods, tyro.conf.arg(name="")]
 """`Methods` without a prefix of their own."""
+
+
+def described(arguments: Sequence[str]) -> Methods:
+    """What a command line says of our detector by short forms, looked up before it is parsed.
+
+    It decides about the defaults of all single settings, which parsing has to know: those of the
+    preset, or those that a bank brings.
+
+    >>> described(["detect", "a.jpg", "--preset", "paper", "--config.delta", "2"]).config.name
+    'paper'
+    """
+    words = [word for argument in arguments for word in argument.split("=", 1)]
+    presets = [after for word, after in pairwise(words) if word == "--preset"]
+    banks = [after for word, after in pairwise(words) if word == "--bank"]
+    short = ("--preset", "--bank", "--config.")
+    ours = any(word.startswith(short) for word in words)
+    config = DetectorConfig()
+    if presets:
+        if presets[-1] in get_args(Preset):
+            config = DetectorConfig.presets()[presets[-1]]
+    elif banks:
+        config = _brought(banks[-1])
+    return Methods(config=config, ours=ours)
+
+
+def _brought(bank: str) -> DetectorConfig:
+    """Settings that a bank brings; the default ones of what is none, which is told later."""
+    from skyline_viz.detector import Detector  # noqa: PLC0415
+    from skyline_viz.filter_bank import FilterBankError  # noqa: PLC0415
+
+    try:
+        return Detector.load(bank).config
+    except FilterBankError:
+        return DetectorConfig()

@@ -12,10 +12,9 @@ from skyline_viz import running
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import BankFile, Folder, Preset
+from skyline_viz.command_line.settings import Folder
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
-from skyline_viz.config import DetectorConfig
 from skyline_viz.system.memory import DETECTING, MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
@@ -41,12 +40,6 @@ class OnTruth:
     truths: TruthOptions = field(default_factory=Truths)
     """How to read masks that leave a choice."""
 
-    bank: BankFile = None
-    """Filter bank to use; the shipped one unless given."""
-
-    preset: Preset = "default"
-    """Where the settings below start from: the best that is known, or the published method."""
-
     seed: int = 0
     """Seed of the negative samples in a cross-validation."""
 
@@ -56,9 +49,6 @@ class OnTruth:
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
 
-    config: DetectorConfig = field(default_factory=DetectorConfig)
-    """Single settings of the detector."""
-
     def open(self) -> tuple[Dataset, list[DatasetItem]]:
         """The data set, and its photos that have a truth.
 
@@ -66,8 +56,6 @@ class OnTruth:
             UsageError: Options contradict each other, or no photo has a truth.
             DatasetError: The folder is no data set.
         """
-        if self.folds and self.bank:
-            raise UsageError("--folds trains filter banks of its own; leave out --bank.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
         dataset = self.truths.open(self.dataset)

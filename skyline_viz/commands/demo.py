@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated
 
@@ -11,11 +11,11 @@ import tyro
 from skyline_viz import rendering
 from skyline_viz.command_line.inputs import collect, output_folder
 from skyline_viz.command_line.messages import SOME_FAILED, say, status_after, tell
-from skyline_viz.command_line.settings import Folder, make_detector
+from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.settings import Folder
 from skyline_viz.command_line.sizes import MaxMegapixels
 from skyline_viz.commands.gallery import build, show, show_picture
 from skyline_viz.commands.render import write_with_progress
-from skyline_viz.config import DetectorConfig
 from skyline_viz.datasets.layouts import DatasetError, open_dataset
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
@@ -34,6 +34,9 @@ class Demo:
     out: Folder = Path("skyline-demo")
     """Folder of the gallery; without a display, a picture of it goes there, too."""
 
+    methods: MethodOptions = field(default_factory=Methods)
+    """What detects; our detector with its default settings unless given."""
+
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
 
@@ -47,8 +50,7 @@ class Demo:
 
         inputs = collect(self.photos or [self._samples()])
         output_folder(self.out, (one.item for one in inputs))
-        detector = make_detector(None, DetectorConfig())
-        entries, failures = build(self.out, inputs, detector, self.workers)
+        entries, failures = build(self.out, inputs, self.methods.one(), self.workers)
         if not entries:
             return status_after(failures) or SOME_FAILED
         if has_display():

@@ -12,9 +12,8 @@ import tyro
 from skyline_viz.command_line.inputs import collect, output_folder
 from skyline_viz.command_line.messages import UsageError, counted, status_after, tell
 from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import BankFile, Folder, Preset, Switch, make_detector
+from skyline_viz.command_line.settings import Folder, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
-from skyline_viz.config import DetectorConfig
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 from skyline_viz.system.names import columns_of, padded, shortened
@@ -39,13 +38,7 @@ class Detect:
     """Folder for NAME.csv: column, row of its first terrain pixel, and whether visible (1 or 0)."""
 
     methods: MethodOptions = field(default_factory=Methods)
-    """Another method than ours."""
-
-    bank: BankFile = None
-    """Filter bank to use; the shipped one unless given."""
-
-    preset: Preset = "default"
-    """Where the settings below start from: the best that is known, or the published method."""
+    """What detects; our detector with its default settings unless given."""
 
     mask: Switch = False
     """Also write NAME-mask.png: 0 is sky, 255 terrain."""
@@ -62,15 +55,12 @@ class Detect:
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
 
-    config: DetectorConfig = field(default_factory=DetectorConfig)
-    """Single settings of the detector."""
-
     def run(self) -> int:
         """Detect all photos; return the exit status."""
         if not self.photos:
             raise UsageError("which photos? Name at least one photo or folder.")
         inputs = collect(self.photos)
-        detector = self._detector()
+        detector = self.methods.one()
         output_folder(self.out, (one.item for one in inputs))
         wide = max(columns_of(shortened(one.name)) for one in inputs)
         failures = []
@@ -85,11 +75,6 @@ class Detect:
         if written > 1:
             tell(f"{counted(written, 'skyline')} in {self.out}")
         return status_after(failures)
-
-    def _detector(self) -> Method:
-        if self.methods.given:
-            return self.methods.one(self.bank, self.config)
-        return make_detector(self.bank, self.config)
 
 
 @dataclass(frozen=True)

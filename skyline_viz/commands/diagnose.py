@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from skyline_viz import diagnosis, evaluation
 from skyline_viz.command_line.messages import UsageError, counted, say, status_after, tell
 from skyline_viz.command_line.on_truth import OnTruth
-from skyline_viz.command_line.settings import OptionalFolder, Switch, make_detector
+from skyline_viz.command_line.settings import OptionalFolder, Switch
 from skyline_viz.system.memory import RECORDING
 
 if TYPE_CHECKING:
@@ -62,9 +62,7 @@ class Diagnose(OnTruth):
         return status_after([*assigned.failures[name], *failed])
 
     def _method(self) -> Method:
-        if self.methods.given:
-            return self.methods.one(self.bank, self.config, to_train=bool(self.folds))
-        return make_detector(self.bank, self.config)
+        return self.methods.one(to_train=bool(self.folds))
 
     def _tell(self, name: str, found: Sequence[Diagnosed]) -> None:
         if self.photo:

@@ -15,9 +15,11 @@ from skyline_viz.command_line.messages import (
     tell_drawn,
 )
 from skyline_viz.command_line.on_truth import OnTruth
-from skyline_viz.command_line.settings import OptionalFolder, make_detector
+from skyline_viz.command_line.settings import OptionalFolder
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from skyline_viz.evaluation import Evaluation
     from skyline_viz.method import Method
 
@@ -58,24 +60,26 @@ class Evaluate(OnTruth):
             tell(f"{listed(evaluation.FILES)} in {self.out}")
         return status_after(found.failures)
 
-    def _methods(self, dataset: str) -> tuple[list[Method], str]:
+    def _methods(self, dataset: str) -> tuple[Sequence[Method], str]:
         """What is to be tested and how; says so where that was trained on these very photos."""
         folds = f"{self.folds}-fold cross-validation" if self.folds else ""
-        if self.methods.given:
-            chosen = self.methods.chosen(
-                bank=self.bank, config=self.config, to_train=bool(self.folds)
-            )
+        chosen = self.methods.chosen(to_train=bool(self.folds))
+        if not folds:
             for text in self.methods.method:
-                if not folds and methods.learned_from(text) == dataset:
+                if methods.learned_from(text) == dataset:
                     say(f"{text} was trained on {dataset}, so this is no test; see --folds.")
-            if len(chosen) == 1:
-                return chosen, f"{chosen[0].name}, {folds or 'as it is'}"
+        if len(chosen) > 1:
             return chosen, folds or "as they are"
-        detector = make_detector(self.bank, self.config)
-        learned = detector.bank.provenance.dataset
+        (one,) = chosen
+        if self.methods.method or self.methods.network:
+            return chosen, f"{one.name}, {folds or 'as it is'}"
+        from skyline_viz.detector import Detector  # noqa: PLC0415
+
+        assert isinstance(one, Detector)
+        learned = one.bank.provenance.dataset
         if not folds and learned == dataset:
             say(f"the bank was trained on {dataset}, so this is no test; see --folds.")
-        return [detector], folds or f"filter bank trained on {learned or 'an unnamed data set'}"
+        return chosen, folds or f"filter bank trained on {learned or 'an unnamed data set'}"
 
 
 def _print(title: str, found: Evaluation) -> None:

@@ -23,17 +23,9 @@ from skyline_viz.command_line.messages import (
     tell_row,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import (
-    BankFile,
-    Folder,
-    Preset,
-    Switch,
-    check_picture,
-    make_detector,
-)
+from skyline_viz.command_line.settings import Folder, Switch, check_picture
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
-from skyline_viz.config import DetectorConfig
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.running.batch import Failure
 from skyline_viz.system.aftermath import ended
@@ -104,15 +96,6 @@ class GalleryCommand:
     truths: TruthOptions = field(default_factory=Truths)
     """How to read masks that leave a choice."""
 
-    bank: BankFile = None
-    """Filter bank to use; the shipped one unless given."""
-
-    preset: Preset = "default"
-    """Where the settings below start from: the best that is known, or the published method."""
-
-    config: DetectorConfig = field(default_factory=DetectorConfig)
-    """Single settings of the detector."""
-
     def run(self) -> int:
         """Detect what is new, show, and keep what people say; return the exit status."""
         if self.comment is not None and not (self.flag or self.unflag):
@@ -143,10 +126,8 @@ class GalleryCommand:
             show(self.out, entries, window=not self.serve, cause=self.cause)
         return status_after(failures)
 
-    def _methods(self) -> list[Method]:
-        if not self.methods.given:
-            return [make_detector(self.bank, self.config)]
-        methods = self.methods.chosen(bank=self.bank, config=self.config)
+    def _methods(self) -> Sequence[Method]:
+        methods = self.methods.chosen()
         if len(methods) > 2:
             raise UsageError(f"a gallery shows one method or two, and {len(methods)} are named.")
         return methods

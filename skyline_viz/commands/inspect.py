@@ -25,18 +25,14 @@ from skyline_viz.command_line.messages import (
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import (
-    BankFile,
     OptionalFolder,
-    Preset,
     Switch,
     check_picture,
-    config_of,
-    make_detector,
 )
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee, pixels_of
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.commands import inspect_more
-from skyline_viz.config import DetectorConfig, TrainingConfig
+from skyline_viz.config import TrainingConfig
 from skyline_viz.running.batch import Failure, sentence
 from skyline_viz.running.progress import ProgressBar
 from skyline_viz.system.aftermath import passing_folder
@@ -92,9 +88,6 @@ class Inspect:
     truth: Annotated[Path | None, tyro.conf.arg(metavar="FILE")] = None
     """True skyline of a single photo: painted photo, mask, CSV or JSON. Data sets bring theirs."""
 
-    compare: Annotated[str | None, tyro.conf.arg(metavar="NAME")] = None
-    """A second detector beside the first: default, paper, or the file of a filter bank."""
-
     sweep: Switch = False
     """Sweep single settings of one photo along timelines: drag one, and see the path change."""
 
@@ -102,7 +95,7 @@ class Inspect:
     """Data set to train filters of other sizes on, for --sweep; the photo itself is left out."""
 
     methods: MethodOptions = field(default_factory=Methods)
-    """Other methods beside ours: their lines in named colours, a tab for each."""
+    """What to look at. Of two, the second is laid beside the first; of more, each gets a tab."""
 
     truths: TruthOptions = field(default_factory=Truths)
     """How to read masks that leave a choice."""
@@ -112,15 +105,6 @@ class Inspect:
 
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
-
-    bank: BankFile = None
-    """Filter bank to use; the shipped one unless given."""
-
-    preset: Preset = "default"
-    """Where the settings below start from: the best that is known, or the published method."""
-
-    config: DetectorConfig = field(default_factory=DetectorConfig)
-    """Single settings of the detector."""
 
     def run(self) -> int:
         """Detect, log and show; return the exit status."""
@@ -132,14 +116,8 @@ class Inspect:
             raise UsageError(f"--truth belongs to one photo, and there are {len(inputs)}.")
         if self.sweep and len(inputs) > 1:
             raise UsageError(f"--sweep belongs to one photo, and there are {len(inputs)}.")
-        detector = make_detector(self.bank, self.config)
         failures: list[Failure] = []
-        using = _Using(
-            detector,
-            None if self.compare is None else self._second(self.compare),
-            self._train_sizes(inputs[0], detector, failures) if self.sweep_training else [],
-            self._methods(),
-        )
+        using = self._using(inputs, failures)
         pixels = self._foresee(inputs)
         with self._folder() as folder:
             files = self._record(inputs, pixels, using, folder, failures)
@@ -182,21 +160,25 @@ class Inspect:
                 "or --screenshot FILE.png."
             )
 
-    def _second(self, name: str) -> Detector:
-        if name in ("default", "paper"):
-            return make_detector(self.bank, config_of("paper" if name == "paper" else "default"))
-        return make_detector(Path(name), self.config)
-
-    def _methods(self) -> list[Method]:
+    def _using(self, inputs: Sequence[NamedItem], failures: list[Failure]) -> _Using:
+        from skyline_viz.detector import Detector  # noqa: PLC0415
         from skyline_viz.viewer.method_recording import COLOURS  # noqa: PLC0415
 
-        named = len(self.methods.method) + (self.methods.network is not None)
-        if named > len(COLOURS):
+        named = len(self.methods.method) + (self.methods.network is not None) + self.methods.ours
+        if named > 1 + len(COLOURS):
             raise UsageError(
-                f"{len(COLOURS)} methods at most can be told apart on a photo, "
+                f"{1 + len(COLOURS)} methods at most can be told apart on a photo, "
                 f"and {named} are named."
             )
-        return self.methods.chosen()
+        first, *others = self.methods.chosen()
+        sizes: Sequence[FilterBank] = []
+        if self.sweep and not isinstance(first, Detector):
+            raise UsageError(f"--sweep changes the settings of our detector, not {first.name}.")
+        if self.sweep_training and isinstance(first, Detector):
+            sizes = self._train_sizes(inputs[0], first, failures)
+        if len(others) == 1:
+            return _Using(first, others[0], sizes, [])
+        return _Using(first, None, sizes, others)
 
     @contextmanager
     def _folder(self) -> Iterator[Path]:
@@ -256,6 +238,7 @@ class Inspect:
         fidelity: Fidelity,
     ) -> Contents:
         """Log a photo of `together` ones, and say what the recording now holds."""
+        from skyline_viz.detector import FilterDetection  # noqa: PLC0415
         from skyline_viz.running.warming import warm_up  # noqa: PLC0415
         from skyline_viz.viewer.bank_recording import log_path_bins  # noqa: PLC0415
         from skyline_viz.viewer.comparison import log_comparison  # noqa: PLC0415
@@ -268,20 +251,24 @@ class Inspect:
         alone = together == 1
         if alone:  # what is logged below is there in every column
             recording.set_time("column", sequence=0)
-        sweeps = inspect_more.begin_sweeps(recording, found, using.sizes) if self.sweep else []
+        ours = found if isinstance(found, FilterDetection) else None
+        sweeps = []
+        if self.sweep and ours:
+            sweeps = inspect_more.begin_sweeps(recording, ours, using.sizes)
         verdict = log_detection(recording, found, truth, name=one.name, fidelity=fidelity)
         if using.other:
             second = using.other.detect(photo)
-            log_comparison(recording, found, second, truth, str(self.compare), fidelity)
+            log_comparison(recording, found, second, truth, second.method, fidelity)
         methods = inspect_more.log_methods(recording, found, using.methods, truth, fidelity)
         diagnosis = None
         if alone and truth is not None and truth.visible.any():
             diagnosis = inspect_more.log_diagnosis(recording, found, truth, one.name)
         if alone:
             recording.disable_timeline("column")
-            log_path_bins(recording, found)
-        if sweeps:
-            inspect_more.log_sweeps(recording, sweeps, found, truth)
+            if ours:
+                log_path_bins(recording, ours)
+        if sweeps and ours:
+            inspect_more.log_sweeps(recording, sweeps, ours, truth)
         error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
         tell(f"{one.name}{error}  margin {verdict.margin:.3g}")
         if diagnosis and diagnosis.right:
@@ -291,9 +278,9 @@ class Inspect:
             fidelity,
             truth=truth is not None,
             diagnosed=diagnosis is not None and not diagnosis.right,
-            path_bins=alone,
+            path_bins=alone and ours is not None,
             photos=together,
-            compared=self.compare or "",
+            compared=using.other.name if using.other else "",
             methods=methods,
             swept=sweeps[0].timeline if sweeps else "",
         )
@@ -308,7 +295,7 @@ class Inspect:
         others = [item for item in with_truth(dataset) if item.photo_path.resolve() != own]
         if not others:
             raise UsageError(f"{dataset.name} holds no photo with a truth but {one.name} itself.")
-        training = TrainingConfig(bins=detector.bank.bins, detector=self.config)
+        training = TrainingConfig(bins=detector.bank.bins, detector=detector.config)
         banks, failed = evaluation.train_sizes(others, training, dataset=dataset.name)
         failures += failed
         return banks
@@ -356,8 +343,8 @@ class Inspect:
 class _Using:
     """What photos are looked at with."""
 
-    detector: Detector
-    other: Detector | None
+    detector: Method
+    other: Method | None
     sizes: Sequence[FilterBank]
     methods: Sequence[Method]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, get_args
+from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
@@ -25,12 +25,13 @@ from skyline_viz.command_line.settings import Folder, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.files import write_text
-from skyline_viz.methods.names import MethodName
+from skyline_viz.methods.names import NAMES
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
     from skyline_viz.datasets import DatasetItem
     from skyline_viz.evaluation import Evaluation, Table
+    from skyline_viz.method import Method
     from skyline_viz.running import Kept
 
 
@@ -77,9 +78,9 @@ class Tables:
             raise UsageError(f"a cross-validation has 2 folds or more, not {self.folds}.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
-        chosen = self.methods.chosen(to_train=True) or [
-            methods.make_method(name) for name in get_args(MethodName)
-        ]
+        chosen: Sequence[Method] = [methods.make_method(name) for name in NAMES]
+        if self.methods.given:
+            chosen = self.methods.chosen(to_train=True)
         sets = {}
         for folder in self.datasets:
             dataset = self.truths.open(folder)

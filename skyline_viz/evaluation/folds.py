@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial, reduce
 from operator import add
@@ -10,10 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from skyline_viz.datasets.item import Item, photo_and_truth
-from skyline_viz.detector import Detector
-from skyline_viz.filter_bank import FilterBank, FilterBankError
-from skyline_viz.method import AddingLearner, LearnedMethod, Learner, Method, MethodError
-from skyline_viz.methods.registry import Trained, load_method, save_method
+from skyline_viz.method import AddingLearner, Learner, Method, MethodError
+from skyline_viz.methods.registry import load_method, save_method
 from skyline_viz.running.batch import Failure, run, sentence
 from skyline_viz.running.resume import Kept, digest_of, digest_of_item, digest_of_method
 
@@ -228,12 +227,9 @@ def _content(item: Item) -> str:
 
 
 def _write(learned: Method | None, file: Path | None) -> None:
-    if file is None:
-        return
-    if isinstance(learned, Detector):
-        learned.bank.save(file)
-    elif isinstance(learned, LearnedMethod):
-        save_method(learned, file, Trained())
+    if file is not None and learned is not None:
+        with suppress(MethodError):  # what a class of somebody's own has learned may stay its own
+            save_method(learned, file)
 
 
 def _read_again(method: Learner, file: Path | None) -> Learner | None:
@@ -241,12 +237,8 @@ def _read_again(method: Learner, file: Path | None) -> Learner | None:
     if file is None:
         return None
     try:
-        if isinstance(method, Detector):
-            return replace(method, bank=FilterBank.load(file))
-        if isinstance(method, LearnedMethod):
-            known: Any = load_method(file)
-            learned: Learner = replace(method, model=known.model)
-            return learned
-    except (FilterBankError, MethodError):
-        pass
-    return None
+        known: Any = load_method(file)
+    except MethodError:
+        return None
+    learned: Learner = method.sharing(known)
+    return learned

@@ -79,6 +79,9 @@ class Entry:
     method: str = "default"
     """Name of the method."""
 
+    filters: bool = True
+    """Whether it is our detector, whose tensor and bins are recorded, too."""
+
     compared: str = ""
     """Name of the method beside the first; nothing without one."""
 

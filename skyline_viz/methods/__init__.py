@@ -1,4 +1,4 @@
-"""The earlier methods, each in a file, behind the protocol of `skyline_viz.method`."""
+"""The earlier methods, each in a file, and how methods are named, kept and brought along."""
 
 import lazy_loader
 

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import cv2
 import numpy as np
@@ -39,10 +39,12 @@ from skyline_viz.methods.score_images import (
     PATCH,
     DenseScores,
     draw_samples,
+    fusions,
     logistic,
     normalised_parts,
     patches,
 )
+from skyline_viz.system.settings import Presets
 
 CHANNELS = (8, 16, 32)
 """Outputs of the first, second and third convolution."""
@@ -72,6 +74,8 @@ _FURTHEST = np.iinfo(np.int32).max  # the end of a slice that goes on to the end
 @dataclass(frozen=True)
 class CnnScores(DenseScores):
     """The model: ``onnx``, the bytes of the graph as uint8 ``(n,)``."""
+
+    PRESETS: ClassVar[Presets] = fusions("cnn")
 
     @property
     def family(self) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import cv2
 import numpy as np
@@ -24,10 +25,12 @@ from skyline_viz.methods.score_images import (
     PATCH,
     DenseScores,
     draw_samples,
+    fusions,
     logistic,
     normalised_parts,
     patches,
 )
+from skyline_viz.system.settings import Presets
 
 SOFTNESS = 0.001
 """``C`` of the support vector machine: what a sample on the wrong side costs."""
@@ -36,6 +39,8 @@ SOFTNESS = 0.001
 @dataclass(frozen=True)
 class SvmScores(DenseScores):
     """The model: ``weights`` (16, 16), ``bias`` (1,), and ``logistic`` (2,), slope and offset."""
+
+    PRESETS: ClassVar[Presets] = fusions("svm")
 
     @property
     def family(self) -> str:

@@ -26,6 +26,7 @@ is left are clouds above the skyline and, where its edges have gaps, ridges righ
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numba
 import numpy as np
@@ -34,6 +35,7 @@ from skyline_viz.arrays import F32, U8, Bool, check_photo
 from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import find_edges
 from skyline_viz.methods.frames import without_frame
+from skyline_viz.system.settings import Configured, Presets
 
 RULED_OUT = 1e4
 """Cost of pixels that are no node; the paper's infinite one, but of any two lines the one that
@@ -41,11 +43,10 @@ crosses fewer of them is still the cheaper one."""
 
 
 @dataclass(frozen=True)
-class EdgesOnly:
+class EdgesOnly(Configured):
     """The settings are in pixels of the photo, whatever its size."""
 
-    name: str = "edges"
-    """Its name."""
+    PRESETS: ClassVar[Presets] = {"edges": {}}
 
     low_threshold: float = 50.0
     """Lower Canny threshold, on the grey photo."""

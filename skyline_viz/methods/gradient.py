@@ -24,6 +24,7 @@ of whole lines: three photos with an edge in the foreground that is stronger, or
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import cv2
 import numpy as np
@@ -32,6 +33,7 @@ from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import to_grey
 from skyline_viz.methods.frames import without_frame
+from skyline_viz.system.settings import Configured, Presets, within
 
 W1 = 0.9
 """Weight of the difference between neighbours against the magnitude."""
@@ -41,16 +43,15 @@ SIGMA = 3.0
 
 
 @dataclass(frozen=True)
-class GradientCost:
+class GradientCost(Configured):
     """Every pixel is a candidate, and costs ``G_r``."""
 
-    name: str = "gradient"
-    """Its name."""
+    PRESETS: ClassVar[Presets] = {"gradient": {}}
 
-    w1: float = W1
+    w1: float = within(W1, 0, 1)
     """Weight of the difference between neighbours against the magnitude, in [0, 1]."""
 
-    sigma: float = SIGMA
+    sigma: float = within(SIGMA, 0, 1000)
     """Width of the smoothing before the gradient, in pixels; 0 for none."""
 
     delta: int = 1

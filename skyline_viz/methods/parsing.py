@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar, Literal, TypeAlias
 
 import cv2
 import numpy as np
@@ -27,9 +27,10 @@ from skyline_viz.methods.extras import needed
 from skyline_viz.methods.onnx_files import HoldsNetwork, Network, normalised, padded
 from skyline_viz.methods.sky_boundary import detect_boundary
 from skyline_viz.methods.sky_network import MEAN, STD, enlarged, sigmoid
+from skyline_viz.system.settings import Presets, within
 
-if TYPE_CHECKING:
-    from skyline_viz.methods.parsing_nets import Architecture
+Architecture: TypeAlias = Literal["fcn-8s", "fcn-16s", "fcn-32s", "segnet"]
+"""Which network."""
 
 _MOST_COLUMNS = 20_000
 
@@ -41,13 +42,13 @@ class SceneParsing(HoldsNetwork, LearnedMethod):
     architecture: ClassVar[Architecture]
     """Which network."""
 
-    width: float = 1 / 8
+    width: float = within(1 / 8, 1e-3, 4)
     """Share of the published channels of every layer; 1 is the published network."""
 
-    epochs: int = 40
+    epochs: int = within(40, 1)
     """Times that every photo is shown."""
 
-    columns: int = 352
+    columns: int = within(352, 32, _MOST_COLUMNS)
     """Columns that photos are scaled to, for training and for detecting."""
 
     pretrained: Path | None = None
@@ -117,8 +118,7 @@ class Fcn8s(SceneParsing):
 
     architecture: ClassVar[Architecture] = "fcn-8s"
 
-    name: str = "fcn-8s"
-    """Its name."""
+    PRESETS: ClassVar[Presets] = {"fcn-8s": {}}
 
 
 @dataclass(frozen=True)
@@ -127,8 +127,7 @@ class Fcn16s(SceneParsing):
 
     architecture: ClassVar[Architecture] = "fcn-16s"
 
-    name: str = "fcn-16s"
-    """Its name."""
+    PRESETS: ClassVar[Presets] = {"fcn-16s": {}}
 
 
 @dataclass(frozen=True)
@@ -137,8 +136,7 @@ class Fcn32s(SceneParsing):
 
     architecture: ClassVar[Architecture] = "fcn-32s"
 
-    name: str = "fcn-32s"
-    """Its name."""
+    PRESETS: ClassVar[Presets] = {"fcn-32s": {}}
 
 
 @dataclass(frozen=True)
@@ -147,8 +145,7 @@ class SegNet(SceneParsing):
 
     architecture: ClassVar[Architecture] = "segnet"
 
-    name: str = "segnet"
-    """Its name."""
+    PRESETS: ClassVar[Presets] = {"segnet": {}}
 
 
 def to_columns(photo: U8, columns: int) -> U8:

@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import torch
@@ -25,9 +25,7 @@ from torch import nn
 from torch.nn import functional as fn
 
 from skyline_viz.method import MethodError
-
-Architecture: TypeAlias = Literal["fcn-8s", "fcn-16s", "fcn-32s", "segnet"]
-"""The networks, as their methods are called."""
+from skyline_viz.methods.parsing import Architecture
 
 STAGES = ((64, 2), (128, 2), (256, 3), (512, 3), (512, 3))
 """Channels and number of the convolutions of VGG-16 between its five poolings."""

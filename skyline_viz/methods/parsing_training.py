@@ -21,7 +21,8 @@ from torch.nn import functional as fn
 
 from skyline_viz.arrays import F32, U8
 from skyline_viz.methods.onnx_files import normalised
-from skyline_viz.methods.parsing_nets import Architecture, SceneNet, build, load_backbone
+from skyline_viz.methods.parsing import Architecture
+from skyline_viz.methods.parsing_nets import SceneNet, build, load_backbone
 from skyline_viz.methods.sky_network import MEAN, STD
 from skyline_viz.skyline import Skyline
 

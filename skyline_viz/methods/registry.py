@@ -1,186 +1,93 @@
-"""Methods by name, and trained ones as files."""
+"""Methods by what they are named: a name, a file or a class, with settings and a label."""
 
 from __future__ import annotations
 
-import hashlib
-import json
-import os
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
-from importlib import import_module
+import re
 from pathlib import Path
-from typing import Any, get_args
 
-import numpy as np
-
-from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
-from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, FilterBankError
-from skyline_viz.method import LearnedMethod, Method, MethodError
-from skyline_viz.methods.names import MethodName
-from skyline_viz.system.headed_npz import HeadedNpz, NpzError, opened
+from skyline_viz.method import Configurable, LearnedMethod, MethodError
+from skyline_viz.methods.finding.importing import class_at, offered
+from skyline_viz.methods.finding.method_files import (
+    Trained,
+    load_method,
+    make_method,
+    method_digest,
+    model_bytes,
+    save_method,
+)
+from skyline_viz.methods.finding.plugins import PluggedLearner, plug_in
+from skyline_viz.methods.finding.specs import Spec, parse
+from skyline_viz.methods.names import NAMES
+from skyline_viz.methods.sky_network import SkyNetwork
+from skyline_viz.system.headed_npz import NpzError, opened
+from skyline_viz.system.notes import note
+from skyline_viz.system.settings import from_texts, meant, name_with
 
-NAMES: tuple[str, ...] = get_args(MethodName)
-"""All names, in the order of the paper's Table I."""
+__all__ = [
+    "NAMES",
+    "Trained",
+    "find_method",
+    "has_learned",
+    "learned_from",
+    "load_method",
+    "make_method",
+    "method_digest",
+    "model_bytes",
+    "save_method",
+]
 
-FORMAT, VERSION = "skyline-method", 1
+MODEL = "model"
+"""The setting that names the file of what a method has learned."""
 
-_LARGEST = 1_000_000  # setting of any method: pixels, costs, epochs
-
-_CLASSES = {
-    "edges": ("edges_only", "EdgesOnly"),
-    "gradient": ("gradient", "GradientCost"),
-    "sift-hog-edges": ("sift_hog", "SiftHogEdges"),
-    "sift-hog-scores-gradient": ("sift_hog", "SiftHogScoresGradient"),
-    "sift-hog-scores": ("sift_hog", "SiftHogScores"),
-    "svm": ("dense_scores", "SvmScores"),
-    "cnn": ("cnn_scores", "CnnScores"),
-    "fcn-8s": ("parsing", "Fcn8s"),
-    "fcn-16s": ("parsing", "Fcn16s"),
-    "fcn-32s": ("parsing", "Fcn32s"),
-    "segnet": ("parsing", "SegNet"),
-}
-"""Module and class of the methods whose names begin so."""
-
-
-@dataclass(frozen=True)
-class Trained:
-    """What a trained method was learned from."""
-
-    dataset: str = ""
-    """Name of the data set."""
-
-    images: int = 0
-    """Number of photos."""
-
-    seed: int = 0
-    """Seed of what was drawn."""
+_CLASS = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_][\w.]*")
+_ENDINGS = (".npz", ".onnx")
 
 
-def make_method(name: str) -> Method:
-    """A method by its name; one that learns has learned nothing yet, but for our detector.
+def find_method(text: str) -> Configurable:
+    """A method by what it is named: ``[LABEL=](NAME | FILE | package.module:Class)[:SETTINGS]``.
 
-    Raises:
-        MethodError: There is none of that name.
-    """
-    if name in ("default", "paper"):
-        return Detector(config=DetectorConfig.paper() if name == "paper" else DetectorConfig())
-    if name not in NAMES:
-        raise MethodError(f"there is no method {name}; there are {', '.join(NAMES)}.")
-    module, kind = next(home for start, home in _CLASSES.items() if name.startswith(start))
-    method: Method = getattr(import_module(f"skyline_viz.methods.{module}"), kind)(name=name)
-    return method
+    Settings are ``name=value``, with commas between; of a method by its name, ``model=FILE`` is the
+    file of what it has learned. See `specs` for names of files that hold such signs.
 
-
-def find_method(text: str) -> Method:
-    """A method by its name, or by the file of a trained one or of a filter bank.
+    >>> find_method("steep=paper:delta=4").name, find_method("paper:delta=4").name
+    ('steep', 'paper:delta=4')
 
     Raises:
-        MethodError: It is neither.
+        MethodError: There is none of that name, or its file or its class is of no use.
     """
-    if text in NAMES:
-        return make_method(text)
-    path = Path(text)
-    if path.suffix != ".npz" and not path.exists():
-        raise MethodError(
-            f"{text} is neither a method nor the file of a trained one; "
-            f"methods are {', '.join(NAMES)}."
-        )
-    return load_method(path)
-
-
-def save_method(method: Method, path: str | os.PathLike[str], trained: Trained) -> None:
-    """Write a method, with what it has learned, as one ``.npz`` file, whole or not at all."""
-    settings = {
-        one.name: getattr(method, one.name)
-        for one in fields(method)  # type: ignore[arg-type]  # all methods are dataclasses
-        if one.name not in ("name", "model")
-    }
-    if "network" in settings:
-        settings["network"] = Path(settings["network"]).resolve()
-    header = {
-        "format": FORMAT,
-        "version": VERSION,
-        "name": method.name,
-        "settings": settings,
-        "digest": method_digest(method),
-        "trained": asdict(trained),
-    }
-    arrays: dict[str, Any] = {
-        "header": np.frombuffer(json.dumps(header, default=str).encode(), np.uint8),
-        **getattr(method, "model", {}),
-    }
-    with replacing(path) as temporary, temporary.open("wb") as file:
-        np.savez_compressed(file, **arrays)
-
-
-def load_method(path: Path) -> Method:
-    """Read what `save_method` wrote, or a filter bank; nothing is ever unpickled.
-
-    Raises:
-        MethodError: Missing, damaged, another kind of file, or of another version.
-    """
+    spec = _parsed(text)
+    settings = dict(spec.settings)
+    method = _by_target(spec)
+    base = "" if not spec.is_file else method.label or Path(spec.target).name
+    if model := settings.pop(MODEL, ""):
+        if spec.is_file:
+            raise MethodError(f"{spec.target} brings what it has learned; leave out {MODEL}.")
+        method = _with_model(method, model)
     try:
-        with opened(path) as file:
-            if file.header.get("format") == FORMAT:
-                return _loaded(path, file)
-    except FileNotFoundError:
-        raise MethodError(f"{path} does not exist.") from None
-    except NpzError as error:
-        raise MethodError(f"{path} is damaged or no trained method: {error}.") from error
-    try:
-        return Detector(FilterBank.load(path))
-    except FilterBankError as error:
-        raise MethodError(f"{path} is neither a trained method nor a filter bank.") from error
-
-
-def _loaded(path: Path, file: HeadedNpz) -> Method:
-    """The method in a file whose header is one of ours.
-
-    Raises:
-        NpzError: An array is damaged.
-        MethodError: Something else is.
-    """
-    header = file.header
-    if header.get("version") != VERSION:
-        said = str(header.get("version"))[:20]
-        raise MethodError(f"{path} is of version {said}, not {VERSION}.")
-    name, settings = header.get("name"), header.get("settings")
-    if not isinstance(name, str) or not isinstance(settings, dict):
-        raise MethodError(f"{path} is damaged: its header names no method.")
-    try:
-        if name == "network":
-            return _network(settings, str(header.get("digest")))
-        made: Any = make_method(name)
-        if not isinstance(made, LearnedMethod):
-            model = {}
-        else:
-            made.check_announced(file.arrays)
-            model = {"model": {part: file.read(part) for part in made.model_shapes()}}
-        loaded: Method = type(made)(name=name, **model, **settings)
-        if isinstance(loaded, LearnedMethod):
-            loaded.check_model()
-        _check_settings(loaded, made)
-    except (NpzError, MethodError):
+        values = from_texts(settings, method.kinds(), spec.target)
+        usual = method.settings()
+        changed = method.with_settings(values) if values else method
+    except MethodError:
         raise
-    except (LookupError, TypeError, ValueError, ArithmeticError) as error:
-        raise MethodError(f"{path} is damaged: {_told(error)}.") from error
-    return loaded
-
-
-def _told(error: Exception) -> str:
-    """What is wrong with settings; Python's words for it are no help."""
-    ours = isinstance(error, _SettingError | ValueError)
-    return str(error) if ours else "its settings are of another kind"
-
-
-class _SettingError(TypeError):
-    """A setting of another kind."""
+    except ValueError as error:
+        said = str(error)
+        about = said if spec.target in said else f"{spec.target}: {said}"
+        raise MethodError(about if about.endswith((".", "?")) else f"{about}.") from error
+    if base:
+        now = {name: changed.settings()[name] for name in usual if name in method.kinds()}
+        label = name_with(base, now, usual)
+    elif model:
+        own = changed.own_name()
+        label = f"{own}{',' if ':' in own else ':'}{MODEL}={Path(model).name}"
+    else:
+        label = ""
+    return changed.labelled(spec.label or label)
 
 
 def learned_from(text: str) -> str:
-    """Name of the data set that a method, named or in a file, was trained on; empty if unknown.
+    """Name of the data set that a named method was trained on; empty if it is not known.
 
     Raises:
         MethodError: There is no such method.
@@ -188,80 +95,98 @@ def learned_from(text: str) -> str:
     method = find_method(text)
     if isinstance(method, Detector):
         return method.bank.provenance.dataset
-    if text in NAMES:
+    spec = _parsed(text)
+    file = spec.target if spec.is_file else spec.settings.get(MODEL)
+    if file is None or file.endswith(".onnx"):
         return ""
     try:
-        with opened(text) as file:
-            trained = file.header.get("trained")
+        with opened(file) as content:
+            trained = content.header.get("trained")
     except (NpzError, OSError) as error:
-        raise MethodError(f"{text} is damaged or no trained method.") from error
+        raise MethodError(f"{file} is damaged or no trained method.") from error
     dataset = trained.get("dataset") if isinstance(trained, dict) else ""
     return dataset if isinstance(dataset, str) else ""
 
 
-def _check_settings(loaded: Method, made: Method) -> None:
-    """Refuse settings of other kinds than a new method of that name has, and absurd ones.
+def has_learned(text: str) -> bool:
+    """Whether what is named brings what it has learned from a file, and so is not to be trained."""
+    spec = _parsed(text)
+    return spec.is_file or MODEL in spec.settings
+
+
+def _parsed(text: str) -> Spec:
+    try:
+        return parse(text, lambda part: part not in NAMES and _exists(part))
+    except ValueError as error:
+        raise MethodError(str(error)) from error
+
+
+def _exists(name: str) -> bool:
+    try:
+        return bool(name) and Path(name).exists()
+    except (OSError, ValueError):  # longer than any name, or with a sign that none has
+        return False
+
+
+def _by_target(spec: Spec) -> Configurable:
+    target = spec.target
+    if spec.is_file or target.endswith(_ENDINGS):
+        return _from_file(target)
+    if target in NAMES:
+        return make_method(target)
+    packages = offered()
+    if target in packages:
+        return plug_in(packages[target], class_at(packages[target]))
+    first, _, rest = target.partition(":")
+    if first in (*NAMES, *packages):
+        raise MethodError(
+            f"{target} gives no value: settings are NAME=VALUE, as in {first}:{rest}=1."
+        )
+    if _CLASS.fullmatch(target):
+        return plug_in(target, class_at(target))
+    known = [*NAMES, *packages]
+    raise MethodError(
+        f"{target} is neither a method nor the file of a trained one; "
+        f"{meant(target, known, 'methods are')}"
+    )
+
+
+def _from_file(name: str) -> Configurable:
+    if name.endswith(".onnx"):
+        return SkyNetwork(Path(name))
+    method = load_method(name)
+    if isinstance(method, Detector) and method.bank.provenance.detector is None:
+        _tell_of_earlier(name, method)
+    return method
+
+
+def _tell_of_earlier(name: str, detector: Detector) -> None:
+    """Say what is taken, where a bank of an earlier version knows its settings only in part."""
+    if not detector.label and detector.config.name != "default":
+        note(
+            f"{name} knows of the settings it was trained for only that edges were "
+            f"{detector.config.edge_source}; {detector.config.name} is taken. "
+            f"Others are named so: {name}:delta=1, or paper:{MODEL}={name}."
+        )
+
+
+def _with_model(method: Configurable, file: str) -> Configurable:
+    """A method with what a file says that it has learned.
 
     Raises:
-        _SettingError: The message names the setting.
+        MethodError: It learns something else, or nothing.
     """
-    for one in fields(made):  # type: ignore[arg-type]  # all methods are dataclasses
-        value, usual = getattr(loaded, one.name), getattr(made, one.name)
-        if one.name == "model" or (value is None and usual is None):
-            continue
-        number = isinstance(usual, float) and isinstance(value, int)
-        path = usual is None and isinstance(value, str)
-        fits = number or path or type(value) is type(usual)
-        if fits and not isinstance(value, str):
-            fits = abs(value) <= _LARGEST  # nor is it infinite, or no number at all
-        if not fits:
-            raise _SettingError(f"its {one.name} is {str(value)[:40]!r}")
-
-
-def _network(settings: dict[str, Any], digest: str) -> Method:
-    """A network from its settings; the file is the user's, and stays where it is.
-
-    Raises:
-        MethodError: The file is gone, or holds another network than before.
-    """
-    from skyline_viz.methods.sky_network import SkyNetwork  # noqa: PLC0415
-
-    mean, std = tuple(settings.pop("mean")), tuple(settings.pop("std"))
-    network = SkyNetwork(Path(settings.pop("network")), mean=mean, std=std, **settings)
-    numbers = (network.sky_class, network.columns or 1, *mean, *std)
-    if not all(type(one) in (int, float) and abs(one) <= _LARGEST for one in numbers):
-        raise _SettingError("its settings are no numbers, or absurd ones")
-    if not (len(mean) == len(std) == 3 and all(std) and (network.columns or 1) > 0):
-        raise _SettingError("its settings fit no photo")
-    if not network.network.is_file():
-        raise MethodError(f"the network {network.network} is gone.")
-    if method_digest(network) != digest:
-        raise MethodError(f"the network {network.network} is another one than it was.")
-    return network
-
-
-def method_digest(method: Method) -> str:
-    """Digest of a method's settings and of what it has learned: another one finds other lines."""
-    digest = hashlib.sha256(type(method).__name__.encode())
-    for one in fields(method):  # type: ignore[arg-type]  # all methods are dataclasses
-        value = getattr(method, one.name)
-        if isinstance(value, Mapping):
-            for name, array in sorted(value.items()):
-                digest.update(name.encode() + array.tobytes())
-        elif isinstance(value, Path) and value.is_file():  # what it holds, wherever it lies
-            with value.open("rb") as file:
-                while piece := file.read(1 << 20):
-                    digest.update(piece)
-        else:
-            digest.update(f"{one.name} {value}".encode())
-    return digest.hexdigest()
-
-
-def model_bytes(method: Method) -> int:
-    """Size of what a method has learned, in bytes, as it lies in memory."""
     if isinstance(method, Detector):
-        return method.bank.filters.nbytes
-    if isinstance(method, LearnedMethod):
-        return sum(array.nbytes for array in method.model.values())
-    network = getattr(method, "network", None)
-    return network.stat().st_size if isinstance(network, Path) else 0
+        try:
+            return method.sharing(Detector(FilterBank.load(file)))
+        except FilterBankError as error:
+            raise MethodError(str(error)) from error
+    other = load_method(file)
+    match method, other:
+        case LearnedMethod(), LearnedMethod():
+            if type(other) is type(method) or other.family == method.family:
+                return method.sharing(other)
+        case PluggedLearner(), PluggedLearner():
+            if other.place == method.place:
+                return method.sharing(other)
+    raise MethodError(f"{file} holds {other.own_name()}, and not what {method.name} learns.")

@@ -36,6 +36,7 @@ from skyline_viz.method import LearnedMethod, near_truth
 from skyline_viz.methods.gradient import gradient_cost
 from skyline_viz.methods.stable_edges import stable_edges
 from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.system.settings import within
 
 PATCH = 16
 """Pixels a side of a patch."""
@@ -56,20 +57,28 @@ Fusion: TypeAlias = Literal["none", "best", "gradient", "msee", "canny"]
 """What the dense score is combined with."""
 
 _ENDINGS: dict[str, Fusion] = {
-    "-mdcsi": "best",
-    "-dcsi": "none",
-    "-dcsi-gradient": "gradient",
-    "-dcsi-msee": "msee",
-    "-dcsi-canny": "canny",
+    "dcsi": "none",
+    "mdcsi": "best",
+    "dcsi-gradient": "gradient",
+    "dcsi-msee": "msee",
+    "dcsi-canny": "canny",
 }
+
+
+def fusions(classifier: str) -> dict[str, dict[str, object]]:
+    """Names of a classifier's methods, and what each sets: `Configured.PRESETS`."""
+    return {f"{classifier}-{ending}": {"fusion": fusion} for ending, fusion in _ENDINGS.items()}
 
 
 @dataclass(frozen=True)
 class DenseScores(LearnedMethod):
-    """A method with a dense score; its name says what that is combined with.
+    """A method with a dense score.
 
     The settings were chosen by two-fold cross-validation over the 40 photos of the Web set.
     """
+
+    fusion: Fusion = "none"
+    """What the score is combined with."""
 
     delta: int = 1
     """Largest change of row between neighbouring columns, in pixels."""
@@ -77,30 +86,18 @@ class DenseScores(LearnedMethod):
     link_weight: float = 0.02
     """Link cost of one pixel of row change."""
 
-    best: int = 50
+    best: int = within(50, 1)
     """``m``: how many pixels of a column ``mdcsi`` keeps."""
 
     ruled_out: float = 3.0
     """Nodal cost of the others, for which the paper has an infinite one."""
 
-    w2: float = 0.9
+    w2: float = within(0.9, 0, 1)
     """Weight of the score against ``G_r``, in [0, 1]; at 0.8 and below a support vector machine
     misses a whole photo, mean error 4.4 against 0.8 px."""
 
-    w3: float = 0.3
+    w3: float = within(0.3, 0, 1)
     """Weight of the score against edges, in [0, 1]; from 0.3 to 0.9 it makes little difference."""
-
-    @property
-    def fusion(self) -> Fusion:
-        """What the score is combined with.
-
-        Raises:
-            ValueError: The name has none of the endings.
-        """
-        for ending, fusion in _ENDINGS.items():
-            if self.name.endswith(ending):
-                return fusion
-        raise ValueError(f"{self.name} does not end in any of {', '.join(_ENDINGS)}.")
 
     def dense_score(self, photo: U8) -> F32:
         """``S``: how much each pixel looks like skyline, ``(H, W)`` in [0, 1].

@@ -52,6 +52,7 @@ from skyline_viz.methods.frames import without_frame
 from skyline_viz.methods.gradient import gradient_cost
 from skyline_viz.methods.stable_edges import stable_edges
 from skyline_viz.skyline import Skyline
+from skyline_viz.system.settings import Presets
 
 POSITIVE_BAND = 2.0
 """Rows from the truth up to which a stable edge is one of the skyline."""
@@ -75,9 +76,6 @@ STEEPNESS = 2.0
 @dataclass(frozen=True)
 class SiftHog(LearnedMethod):
     """What the three have in common; settings are in pixels of the photo, as in `EdgesOnly`."""
-
-    name: str = "sift-hog"
-    """Its name."""
 
     delta: int = 30
     """Largest change of row between neighbouring columns, and across a gap."""
@@ -168,8 +166,7 @@ class SiftHog(LearnedMethod):
 class SiftHogEdges(SiftHog):
     """Every edge that is called skyline costs the same."""
 
-    name: str = "sift-hog-edges"
-    """Its name."""
+    PRESETS: ClassVar[Presets] = {"sift-hog-edges": {}}
 
     score_weight: ClassVar[float] = 0.0
     """Scores decide which edges are nodes, and no more."""
@@ -183,8 +180,7 @@ class SiftHogEdges(SiftHog):
 class SiftHogScores(SiftHog):
     """Edges cost what their scores lack."""
 
-    name: str = "sift-hog-scores"
-    """Its name."""
+    PRESETS: ClassVar[Presets] = {"sift-hog-scores": {}}
 
     def nodal_costs(self, photo: U8, rows: Int, columns: Int, scores: F32) -> F32:  # noqa: ARG002
         """Equation 11."""
@@ -195,8 +191,7 @@ class SiftHogScores(SiftHog):
 class SiftHogScoresGradient(SiftHog):
     """Edges cost what their scores lack, and the gradient cost ``G_r``."""
 
-    name: str = "sift-hog-scores-gradient"
-    """Its name."""
+    PRESETS: ClassVar[Presets] = {"sift-hog-scores-gradient": {}}
 
     score_weight: ClassVar[float] = 0.5
     """The paper's ``w2``, which it does not give; anything from 0.3 to 0.7 does the same."""

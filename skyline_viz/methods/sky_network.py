@@ -27,6 +27,7 @@ from skyline_viz.detection import Detection, timed
 from skyline_viz.method import MethodError
 from skyline_viz.methods.onnx_files import HoldsNetwork, Network, normalised, padded, read_network
 from skyline_viz.methods.sky_boundary import detect_boundary
+from skyline_viz.system.settings import Configured, name_with, within
 
 MEAN = (0.485, 0.456, 0.406)
 """Mean of ImageNet's photos, red, green and blue, in [0, 1]."""
@@ -36,8 +37,8 @@ STD = (0.229, 0.224, 0.225)
 
 
 @dataclass(frozen=True)
-class SkyNetwork(HoldsNetwork):
-    """A network of somebody's."""
+class SkyNetwork(HoldsNetwork, Configured):
+    """A network of somebody's, called after its file."""
 
     network: Path
     """The ONNX file."""
@@ -51,11 +52,18 @@ class SkyNetwork(HoldsNetwork):
     std: tuple[float, float, float] = STD
     """What they are divided by then; that of ImageNet unless given."""
 
-    columns: int | None = None
+    columns: int | None = within(None, 1)
     """Columns that photos are scaled to for networks that take any size; None leaves them."""
 
-    name: str = "network"
-    """Its name."""
+    def kinds(self) -> dict[str, object]:
+        """See `Configurable.kinds`: the file, and numbers of each colour, are not given as text."""
+        kinds = super().kinds()
+        return {one: kinds[one] for one in ("sky_class", "columns")}
+
+    def own_name(self) -> str:
+        """See `Configurable.own_name`."""
+        settings = {one: getattr(self, one) for one in self.kinds()}
+        return name_with(self.network.name, settings, {"sky_class": 0, "columns": None})
 
     def check(self) -> None:
         """Open the file.

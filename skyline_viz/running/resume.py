@@ -24,7 +24,6 @@ from typing import Any, Generic, TypeVar
 from skyline_viz import __version__
 from skyline_viz.datasets.item import Item
 from skyline_viz.datasets.layouts import DatasetItem
-from skyline_viz.detector import Detector
 from skyline_viz.files import write_text
 from skyline_viz.method import Method
 from skyline_viz.methods.registry import method_digest
@@ -182,13 +181,7 @@ def digest_of(*parts: object) -> str:
 
 def digest_of_method(method: Method, start: str = "") -> str:
     """Digest of what finds skylines: its settings, and what it has learned."""
-    if not isinstance(method, Detector):
-        return method_digest(method)
-    bank = method.bank
-    digest = hashlib.sha256(f"{start} {method.config} {bank.bins} {bank.provenance}".encode())
-    for array in (bank.filters, bank.samples, bank.terrain):
-        digest.update(array.tobytes())
-    return digest.hexdigest()
+    return hashlib.sha256(f"{start} {method_digest(method)}".encode()).hexdigest()
 
 
 def digest_of_files(start: str, item: DatasetItem) -> str:

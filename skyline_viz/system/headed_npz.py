@@ -1,6 +1,19 @@
-"""Reading ``.npz`` files with a JSON header that may be damaged, or made to do damage.
+"""Files of arrays with a JSON header: writing them, and reading what may be made to do damage.
 
-Filter banks and trained methods are such files: a ZIP of arrays, of which ``header`` holds JSON.
+Filter banks, detectors and trained methods are such files: a ZIP of arrays, an ``.npz`` of NumPy,
+of which ``header`` holds JSON. It begins with `FORMAT` and `VERSION`; what it says besides is up
+to whoever writes it:
+
+============  ============================================================================
+``bank``      bins and provenance of a filter bank, whose arrays are in the file
+``method``    what detects with the settings: ``filters`` for our detector, or a name
+``settings``  the settings, by name
+``label``     what it is called, where that is not told by method and settings
+``trained``   what a method was trained on; a bank has its provenance
+============  ============================================================================
+
+Arrays of further models are called ``MODEL__PART``. Earlier formats had a header each.
+
 `opened` looks at the directory of the ZIP and at the first bytes of each array, which say its type
 and shape, before anything else; whoever reads says what is expected, and only then are bytes
 unpacked, as many as that takes. Nothing is ever unpickled. What is wrong is one `NpzError`.
@@ -8,6 +21,7 @@ unpacked, as many as that takes. Nothing is ever unpickled. What is wrong is one
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
 import os
@@ -24,6 +38,9 @@ from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
+
+FORMAT, VERSION = "skyline-viz", 2
+"""How the header begins: under ``format`` and ``version``."""
 
 MOST_BYTES = 1 << 30
 """Bytes that the arrays of a file may take together; the largest published network takes half."""
@@ -125,12 +142,43 @@ class HeadedNpz:
         return document
 
 
+def write(
+    file: IO[bytes], header: Mapping[str, Any], arrays: Mapping[str, npt.NDArray[Any]]
+) -> None:
+    """Write a file; the same header and arrays give the same bytes.
+
+    Args:
+        file: Where to.
+        header: What is said besides format and version, as JSON takes it.
+        arrays: The arrays, by names that are identifiers.
+    """
+    said = json.dumps({"format": FORMAT, "version": VERSION, **header}).encode()
+    whole = {"header": np.frombuffer(said, np.uint8), **arrays}
+    np.savez_compressed(file, **whole)  # type: ignore[arg-type]  # ** reaches allow_pickle
+
+
+def packed(header: Mapping[str, Any], arrays: Mapping[str, npt.NDArray[Any]]) -> bytes:
+    """What `write` writes."""
+    file = io.BytesIO()
+    write(file, header, arrays)
+    return file.getvalue()
+
+
+def digest(header: Mapping[str, Any], arrays: Mapping[str, npt.NDArray[Any]]) -> str:
+    """SHA-256 of what a file says and holds, however it is packed."""
+    found = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
+    for name, array in sorted(arrays.items()):
+        found.update(f"\n{name} {array.dtype.str} {array.shape}\n".encode())
+        found.update(np.ascontiguousarray(array).tobytes())
+    return found.hexdigest()
+
+
 @contextmanager
-def opened(path: str | os.PathLike[str], most: int = MOST_BYTES) -> Iterator[HeadedNpz]:
+def opened(path: str | os.PathLike[str] | bytes, most: int = MOST_BYTES) -> Iterator[HeadedNpz]:
     """Open a file, and check all that it announces.
 
     Args:
-        path: The file.
+        path: The file, or its content.
         most: Bytes that its arrays may take in memory together.
 
     Raises:
@@ -139,11 +187,15 @@ def opened(path: str | os.PathLike[str], most: int = MOST_BYTES) -> Iterator[Hea
     """
     with ExitStack() as around:
         with _damage_told():
-            if not Path(path).is_file():
-                if Path(path).exists():
-                    raise NpzError("it is no file")
+            file: IO[bytes]
+            if isinstance(path, bytes):
+                file = io.BytesIO(path)
+            elif Path(path).is_file():
+                file = around.enter_context(Path(path).open("rb"))
+            elif Path(path).exists():
+                raise NpzError("it is no file")
+            else:
                 raise FileNotFoundError(2, "No such file or directory", str(path))
-            file = around.enter_context(Path(path).open("rb"))
             archive = around.enter_context(zipfile.ZipFile(_checked(file)))
             headed = HeadedNpz(archive, _directory(archive, most))
         yield headed
@@ -165,7 +217,7 @@ def _checked(file: IO[bytes]) -> IO[bytes]:
 
     `ZipFile` leaves others open, and reads whole directories, however long they are.
     """
-    size = os.fstat(file.fileno()).st_size
+    size = file.seek(0, os.SEEK_END)
     file.seek(max(size - _LOCATOR - _END.size, 0))
     end = file.read()
     if len(end) < _END.size or end[: -_END.size].startswith(b"PK\6\7"):

@@ -220,7 +220,7 @@ def _methods_tab(contents: Contents) -> rrb.Container:
             f"{one.name}: nodal cost",
             [
                 below(_stages_of(one), entities.COST),
-                *_with_halos([f"{entities.METHOD_LINES}/{one.name}"]),
+                *_with_halos([entities.line_of(one.name)]),
             ],
         )
         for one in contents.methods[:3]
@@ -231,7 +231,7 @@ def _methods_tab(contents: Contents) -> rrb.Container:
 
 def _method_tab(contents: Contents, one: MethodContents) -> rrb.Container:
     """The stages of a method, as the stages of ours."""
-    line = f"{entities.METHOD_LINES}/{one.name}"
+    line = entities.line_of(one.name)
     views = {
         title: [below(_stages_of(one), stage) for stage in shown]
         for title, shown in _figure_1(one.stages).items()
@@ -239,11 +239,11 @@ def _method_tab(contents: Contents, one: MethodContents) -> rrb.Container:
     views["Path"] = [entities.PHOTO, *_with_halos([line, entities.TRUTH])]
     pictures = [_photo_view(title, shown) for title, shown in views.items()]
     report = rrb.TextDocumentView(origin=below(_stages_of(one), entities.REPORT), name="Report")
-    return _grid(contents, [*pictures, report], one.name)
+    return _grid(contents, [*pictures, report], shown_in_viewer(one.name))
 
 
 def _stages_of(one: MethodContents) -> str:
-    return f"{entities.METHODS}/{one.name}"
+    return entities.stages_of(one.name)
 
 
 def _photos_tab(contents: Contents) -> rrb.Container:

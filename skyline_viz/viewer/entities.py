@@ -3,6 +3,8 @@
 A second detection beside the first has the same paths under `OTHER`.
 """
 
+import rerun as rr
+
 from skyline_viz.stage import Quantity
 
 PHOTO = "photo"
@@ -158,6 +160,20 @@ def of_quantity(quantity: Quantity) -> str:
     ('maps/sky_probability', 'score')
     """
     return below(quantity.group, quantity.name.replace(" ", "_"))
+
+
+def stages_of(method: str) -> str:
+    r"""Parent of the stages of another method, by its name.
+
+    >>> stages_of("edges"), stages_of("paper:delta=4")
+    ('methods/edges', 'methods/paper\\\\:delta\\\\=4')
+    """
+    return f"{METHODS}/{rr.escape_entity_path_part(method)}"
+
+
+def line_of(method: str) -> str:
+    """The skyline that another method found, by its name."""
+    return f"{METHOD_LINES}/{rr.escape_entity_path_part(method)}"
 
 
 def below(parent: str, entity: str) -> str:

@@ -10,6 +10,7 @@ from skyline_viz.colours import Colour
 from skyline_viz.detection import Detection
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.skyline import Skyline
+from skyline_viz.system.names import named_in_markdown
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import log_line
 from skyline_viz.viewer.contents import Fidelity
@@ -57,11 +58,11 @@ def log_methods(
         _row("magenta", detection, ours),
     ]
     for (word, colour), other in zip(COLOURS.items(), others, strict=False):
-        under = f"{entities.METHODS}/{other.method}"
+        under = entities.stages_of(other.method)
         verdict = log_detection(
             recording, other, truth, name=other.method, fidelity=fidelity, under=under
         )
-        line = f"{entities.METHOD_LINES}/{other.method}"
+        line = entities.line_of(other.method)
         log_line(recording, line, other.skyline, colour, _RADIUS)
         lines.append(_row(word, other, verdict))
     if truth:
@@ -75,4 +76,5 @@ def _row(colour: str, detection: Detection, verdict: Verdict) -> str:
     if verdict.a_err is not None:
         error, worst = f"{verdict.a_err:.2f} px", f"{verdict.worst_error:.0f} px"
     took = f"{1000 * detection.total_seconds:.0f}"
-    return f"| {colour} | {detection.method} | {error} | {worst} | {took} |"
+    name = named_in_markdown(detection.method)
+    return f"| {colour} | {name} | {error} | {worst} | {took} |"

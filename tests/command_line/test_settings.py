@@ -1,21 +1,15 @@
-"""The preset from which the settings of a command start."""
+"""Options that commands share."""
+
+from pathlib import Path
 
 import pytest
 
-from skyline_viz.command_line.settings import asked_preset
+from skyline_viz.command_line.messages import UsageError
+from skyline_viz.command_line.settings import check_picture
 
 
-@pytest.mark.parametrize(
-    ("words", "preset"),
-    [
-        ("detect a.jpg", "default"),
-        ("detect --preset paper a.jpg", "paper"),
-        ("detect --preset=paper a.jpg", "paper"),
-        ("detect --preset paper --preset default", "default"),
-        ("detect --preset", "default"),
-        ("detect --preset moon", "default"),
-        ("detect paper", "default"),
-    ],
-)
-def test_the_preset_is_known_before_parsing(words, preset):
-    assert asked_preset(words.split()) == preset
+def test_pictures_are_png_or_jpeg():
+    for path in (None, Path("a.png"), Path("b.JPG")):
+        check_picture(path)
+    with pytest.raises(UsageError, match=r"so a\.gif should end in .png or .jpg"):
+        check_picture(Path("a.gif"))

@@ -74,7 +74,7 @@ def test_or_one_recording_a_photo(say, hills, tmp_path):
 
 def test_a_second_detector_beside_the_first(say, hills, tmp_path):
     photo = hills / "images" / "h0.png"
-    assert say("inspect", photo, "--compare", "paper", "--save", "a.rrd")[0] == 0
+    assert say("inspect", photo, "--method", "default", "paper", "--save", "a.rrd")[0] == 0
     read = Read(tmp_path / "a.rrd")
     assert entities.below(entities.OTHER, entities.SCORE) in read.entities()
     other = sv.Detector(config=sv.DetectorConfig.paper()).detect(sv.read_photo(photo))
@@ -141,7 +141,9 @@ def test_nothing_is_written_when_no_photo_can_be_read(say, tmp_path):
         (["inspect", "hills", "--save", "a.rrd", "--serve"], "exclude each other"),
         (["inspect", "hills", "--truth", "x.csv", "--headless"], "belongs to one photo"),
         (["inspect", "hills", "--screenshot", "a.gif"], "end in .png or .jpg"),
-        (["inspect", "hills", "--compare", "gone.npz", "--headless"], "gone.npz does not exist"),
+        (["inspect", "hills", "--headless", "--method", "gone.npz"], "gone.npz does not exist"),
+        (["inspect", PHOTO, "--headless", "--sweep", "--method", "edges"], "not edges."),
+        (["inspect", PHOTO, "--headless", "--method", "paper", "paper"], "is named twice"),
         (["inspect", "hills", "--sweep", "--headless"], "--sweep belongs to one photo, and there"),
         (["inspect", PHOTO, "--sweep-training", "hills", "--headless"], "not asked for"),
         (["inspect", PHOTO, "--sweep", "--sweep-training", "x", "--headless"], "x does not exist"),

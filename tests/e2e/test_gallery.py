@@ -13,9 +13,8 @@ from PIL import Image
 
 from skyline_viz.cli import main
 from skyline_viz.command_line.inputs import collect
-from skyline_viz.command_line.settings import make_detector
 from skyline_viz.commands.gallery import PICTURE, build
-from skyline_viz.config import DetectorConfig
+from skyline_viz.detector import Detector
 from skyline_viz.gallery.flags import Change, change_flags, read_flags
 from skyline_viz.gallery.store import Gallery
 from skyline_viz.gallery.table import served
@@ -46,7 +45,7 @@ def photos(tmp_path_factory):
 @pytest.fixture(scope="module")
 def built(photos, tmp_path_factory):
     folder = tmp_path_factory.mktemp("gallery")
-    detector = make_detector(None, DetectorConfig())
+    detector = Detector()
     entries, failures = build(folder, collect([photos]), detector, workers=1)
     assert failures == []
     return Gallery(folder), entries

@@ -27,7 +27,7 @@ HARMLESS = ("rasterizer", "Docker", "lookup address")  # what a machine without 
 def recording(tmp_path_factory):
     file = tmp_path_factory.mktemp("viewer") / "hazy.rrd"
     photo, truth = SAMPLES / "images" / "hazy-1.jpg", SAMPLES / "masks" / "hazy-1.png"
-    words = ["inspect", photo, "--truth", truth, "--compare", "paper", "--save", file]
+    words = ["inspect", photo, "--truth", truth, "--method", "default", "paper", "--save", file]
     assert main(list(map(str, words))) == 0
     return file
 

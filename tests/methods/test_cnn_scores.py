@@ -18,13 +18,14 @@ from skyline_viz.methods.cnn_scores import (
     patch_network,
     train_network,
 )
-from skyline_viz.methods.names import MethodName
+from skyline_viz.methods.names import NAMES as ALL
+from skyline_viz.methods.registry import make_method
 from skyline_viz.methods.score_images import BAND, LEAST_DEVIATION, patches
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
 from testing.deep import deep
 
-NAMES = [name for name in MethodName.__args__ if name.startswith("cnn-")]
+NAMES = [name for name in ALL if name.startswith("cnn-")]
 SCENE = render("clear", 7, 150, 90)
 
 
@@ -32,7 +33,7 @@ SCENE = render("clear", 7, 150, 90)
 def trained(items):
     deep("onnx")
     deep("torch")
-    return CnnScores("cnn-dcsi").fit(items, seed=3)
+    return make_method("cnn-dcsi").fit(items, seed=3)
 
 
 @pytest.fixture(scope="module")
@@ -46,13 +47,13 @@ def network():
 def of(weights):
     """A method with these weights."""
     graph = np.frombuffer(onnx_graph(deep("onnx"), weights), np.uint8)
-    return CnnScores("cnn-dcsi", {"onnx": graph})
+    return CnnScores({"onnx": graph})
 
 
 def test_all_five_are_there():
     assert len(NAMES) == 5
-    assert {CnnScores(name).family for name in NAMES} == {"cnn-dcsi"}
-    assert all(isinstance(CnnScores(name), Learner) for name in NAMES)
+    assert {make_method(name).family for name in NAMES} == {"cnn-dcsi"}
+    assert all(isinstance(make_method(name), Learner) for name in NAMES)
 
 
 @pytest.mark.parametrize("strip", [512, 33])
@@ -128,7 +129,7 @@ def test_model_is_the_graph(trained):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_detections_hold_together(trained, name):
-    detection = CnnScores(name).sharing(trained).detect(SCENE.photo)
+    detection = make_method(name).sharing(trained).detect(SCENE.photo)
     dense = trained.dense_score(SCENE.photo)
     assert detection.method == name
     np.testing.assert_array_equal(detection.scores, dense[detection.edges])
@@ -152,7 +153,7 @@ def test_any_photo(network, size):
 @pytest.mark.parametrize("name", NAMES)
 def test_untrained(name):
     with pytest.raises(MethodError, match=f"train DATASET --method {name} "):
-        CnnScores(name).detect(SCENE.photo)
+        make_method(name).detect(SCENE.photo)
 
 
 @pytest.mark.parametrize("missing", ["torch", "onnx"])
@@ -160,7 +161,7 @@ def test_without_a_package(items, monkeypatch, missing):
     for module in ("torch", "onnx"):
         monkeypatch.setitem(sys.modules, module, None if module == missing else sys)
     with pytest.raises(MethodError) as caught:
-        CnnScores("cnn-dcsi-canny").fit(items)
+        make_method("cnn-dcsi-canny").fit(items)
     assert str(caught.value) == (
         f"cnn-dcsi-canny needs {missing} to be trained; "
         "install it with: pip install 'skyline-viz[deep]'"

@@ -12,31 +12,31 @@ from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.edges import find_edges, to_grey
 from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.method import Learner, MethodError
-from skyline_viz.methods.dense_scores import SvmScores
 from skyline_viz.methods.gradient import gradient_cost
-from skyline_viz.methods.names import MethodName
+from skyline_viz.methods.names import NAMES as ALL
+from skyline_viz.methods.registry import make_method
 from skyline_viz.methods.score_images import BAND, LEAST_DEVIATION, patches
 from skyline_viz.methods.stable_edges import stable_edges
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
 
-NAMES = [name for name in MethodName.__args__ if name.startswith("svm-")]
+NAMES = [name for name in ALL if name.startswith("svm-")]
 SCENE = render("clear", 7, 150, 90)
 
 
 @pytest.fixture(scope="module")
 def trained(items):
-    return SvmScores("svm-dcsi").fit(items, seed=3)
+    return make_method("svm-dcsi").fit(items, seed=3)
 
 
 def found(trained, name, **settings):
-    return replace(SvmScores(name).sharing(trained), **settings).detect(SCENE.photo)
+    return replace(make_method(name).sharing(trained), **settings).detect(SCENE.photo)
 
 
 def test_all_five_are_there():
     assert len(NAMES) == 5
-    assert {SvmScores(name).family for name in NAMES} == {"svm-dcsi"}
-    assert all(isinstance(SvmScores(name), Learner) for name in NAMES)
+    assert {make_method(name).family for name in NAMES} == {"svm-dcsi"}
+    assert all(isinstance(make_method(name), Learner) for name in NAMES)
 
 
 def test_decisions_are_dot_products_with_patches(trained):
@@ -75,10 +75,10 @@ def ridge(seed):
 
 
 def test_it_finds_the_skyline_of_a_photo_that_it_has_not_seen():
-    trained = SvmScores("svm-dcsi").fit([ridge(seed) for seed in range(3)])
+    trained = make_method("svm-dcsi").fit([ridge(seed) for seed in range(3)])
     new = ridge(9)
     for name in NAMES:
-        detection = SvmScores(name).sharing(trained).detect(new.photo())
+        detection = make_method(name).sharing(trained).detect(new.photo())
         assert a_err(detection.skyline, new.truth()) < 2
 
 
@@ -121,7 +121,7 @@ def test_fusion_with_edges(trained):
 
 
 def test_training_is_determined_by_the_seed(items, trained):
-    again, other = (SvmScores("svm-dcsi").fit(items, seed=seed) for seed in (3, 4))
+    again, other = (make_method("svm-dcsi").fit(items, seed=seed) for seed in (3, 4))
     for part, array in trained.model.items():
         np.testing.assert_array_equal(array, again.model[part])
     assert not np.array_equal(trained.model["weights"], other.model["weights"])
@@ -130,18 +130,20 @@ def test_training_is_determined_by_the_seed(items, trained):
 @pytest.mark.parametrize("name", NAMES)
 def test_untrained(name):
     with pytest.raises(MethodError, match=f"train DATASET --method {name} "):
-        SvmScores(name).detect(SCENE.photo)
+        make_method(name).detect(SCENE.photo)
 
 
-def test_a_name_that_says_nothing():
-    with pytest.raises(ValueError, match="svm-scores does not end in any of"):
-        _ = SvmScores("svm-scores").fusion
+def test_a_name_is_a_label_and_no_switch(trained):
+    method = replace(trained, label="svm-dcsi-gradient")
+    assert (method.name, method.fusion) == ("svm-dcsi-gradient", "none")
+    assert replace(trained, fusion="canny").name == "svm-dcsi-canny"
+    assert replace(trained, fusion="best", best=9).name == "svm-mdcsi:best=9"
 
 
 def test_without_scikit_learn(items, monkeypatch):
     monkeypatch.setitem(sys.modules, "sklearn.svm", None)
     with pytest.raises(MethodError) as caught:
-        SvmScores("svm-mdcsi").fit(items)
+        make_method("svm-mdcsi").fit(items)
     assert str(caught.value) == (
         "svm-mdcsi needs scikit-learn to be trained; "
         "install it with: pip install 'skyline-viz[methods]'"
@@ -166,7 +168,7 @@ def test_packages_of_extras_are_imported_only_where_needed():
 @pytest.mark.parametrize("size", [(2, 2), (9, 40), (40, 9)])
 def test_any_photo(trained, name, size):
     photo = np.full((*size, 3), 90, np.uint8)
-    detection = SvmScores(name).sharing(trained).detect(photo)
+    detection = make_method(name).sharing(trained).detect(photo)
     assert np.isfinite(detection.cost).all()
     assert detection.skyline.width == size[1]
 

@@ -69,12 +69,14 @@ def test_a_method_that_has_learned_nothing_says_how_to_train_it():
 
 
 def test_names_and_files_that_are_no_method_are_refused(tmp_path):
-    with pytest.raises(MethodError, match="nobody is neither a method nor the file"):
+    with pytest.raises(MethodError, match="nobody is neither a method nor the file of a tr"):
         find_method("nobody")
     with pytest.raises(MethodError, match=r"gone\.npz does not exist"):
         find_method(str(tmp_path / "gone.npz"))
     (tmp_path / "text.npz").write_text("no archive")
-    with pytest.raises(MethodError, match=r"text\.npz is damaged or no trained method"):
+    with pytest.raises(
+        MethodError, match=r"text\.npz is damaged, or not a filter bank or a trained"
+    ):
         find_method(str(tmp_path / "text.npz"))
     np.savez(tmp_path / "other.npz", header=np.frombuffer(b'{"format": "x"}', np.uint8))
     with pytest.raises(MethodError, match="neither a trained method nor a filter bank"):
@@ -194,7 +196,9 @@ def test_compiled_loops_never_see_a_model_of_another_shape(tmp_path, name, chang
 
 def test_settings_of_another_kind_are_refused(tmp_path):
     save_method(EdgesOnly(delta="x"), tmp_path / "m.npz", Trained())
-    with pytest.raises(MethodError, match="damaged: its delta is 'x'"):
+    with pytest.raises(
+        MethodError, match="damaged: delta is a whole number from 0 to 1,000,000, not 'x'"
+    ):
         load_method(tmp_path / "m.npz")
 
 
@@ -220,12 +224,12 @@ def test_options_that_would_be_ignored_are_refused(folder, tmp_path, capsys):
     out = str(tmp_path / "m.npz")
     train = ["train", str(folder), "--out", out, "--method"]
     for words, says in (
-        ([*train, "paper"], "trained by --preset paper"),
         ([*train, "default", "--pretrained", "x.pth"], "--pretrained is for FCNs"),
         ([*train, "svm-dcsi", "--preset", "paper"], "are for our filter bank"),
-        (["evaluate", str(folder), "--method", "edges", "--preset", "paper"], "leave out"),
-        (["detect", str(folder), "--method", "edges", "--config.delta", "2"], "leave out"),
-        (["gallery", str(folder), "--method", "edges", "--bank", "x.npz"], "leave out"),
+        ([*train, "paper:delta=4", "--preset", "paper"], "settings are given twice"),
+        ([*train, "paper:model=b.npz"], "has learned already"),
+        (["detect", str(folder), "--method", "edges", "--config.delta", "2"], "2 are named"),
+        (["gallery", str(folder), "--method", "edges", "--bank", "x.npz"], "x.npz does not exist"),
     ):
         assert main(words) == 2, words
         assert says in capsys.readouterr().err
@@ -241,6 +245,8 @@ def test_a_method_is_not_tested_on_what_it_learned_from_without_a_word(folder, t
     assert "was trained on hills, so this is no test" in capsys.readouterr().err
     assert main(["evaluate", str(folder), "--method", file, "--folds", "2"]) == 2
     assert "would be trained anew" in capsys.readouterr().err
+    assert main(["evaluate", str(folder), "--method", f"svm-mdcsi:model={file}"]) == 0
+    assert "was trained on hills, so this is no test" in capsys.readouterr().err
 
 
 def test_a_network_is_what_its_file_holds(tmp_path):

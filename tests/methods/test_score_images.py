@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from skyline_viz.edges import find_edges
-from skyline_viz.methods.dense_scores import SvmScores, normalised
+from skyline_viz.methods.dense_scores import normalised
+from skyline_viz.methods.registry import make_method
 from skyline_viz.methods.score_images import BAND, best_of_columns, draw_samples, patches
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
@@ -17,11 +18,11 @@ SCENE = render("clear", 7, 150, 90)
 
 @pytest.fixture(scope="module")
 def trained(items):
-    return SvmScores("svm-dcsi").fit(items, seed=3)
+    return make_method("svm-dcsi").fit(items, seed=3)
 
 
 def found(trained, name, **settings):
-    return replace(SvmScores(name).sharing(trained), **settings).detect(SCENE.photo)
+    return replace(make_method(name).sharing(trained), **settings).detect(SCENE.photo)
 
 
 def test_a_patch_is_what_lies_around_its_pixel():
@@ -75,4 +76,4 @@ def test_more_than_all_are_all():
 def test_a_truth_that_does_not_fit():
     misfit = SimpleNamespace(photo=lambda: SCENE.photo, truth=lambda: Skyline(rows=[4, 5, 6]))
     with pytest.raises(ValueError, match="3 columns, the photo 150"):
-        SvmScores("svm-dcsi").fit([misfit])
+        make_method("svm-dcsi").fit([misfit])

@@ -23,6 +23,8 @@ CONTRACT = (
     "a_err",
     "open_dataset",
     "log_detection",
+    "find_method",
+    "Method",
 )
 HEAVY = ("numpy", "cv2", "numba", "matplotlib", "PIL", "rich", "tyro", "rerun", "multiprocessing")
 

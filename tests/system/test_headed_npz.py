@@ -19,6 +19,7 @@ from skyline_viz.methods.score_images import PATCH
 from skyline_viz.rendering import render
 from skyline_viz.system.headed_npz import MOST_BYTES, NpzError, opened
 from testing.harm import Mutations, as_npy, members, npz_of
+from testing.methods import write_bank, write_method
 
 MOST_TAKEN = 64 << 20
 """Bytes that reading any of the files here may take at a time."""
@@ -30,6 +31,9 @@ def files(tmp_path_factory):
     folder = tmp_path_factory.mktemp("files")
     bank = sv.FilterBank.default()
     bank.save(folder / "bank.npz")
+    sv.find_method("steep=paper:delta=4").save(folder / "detector.npz")
+    write_bank(bank, folder / "earlier-bank.npz")
+    write_method(folder / "earlier-edges.npz", "edges", EdgesOnly().settings())
     save_method(EdgesOnly(), folder / "edges.npz", Trained("hills", 4))
     models = {
         "sift-hog-edges": {"weights": np.zeros(LENGTH, np.float32), "bias": np.zeros(1)},
@@ -60,7 +64,18 @@ def outcome(path):
     return said
 
 
-@pytest.mark.parametrize("name", ["bank", "edges", "sift-hog-edges", "svm-dcsi"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "bank",
+        "detector",
+        "edges",
+        "sift-hog-edges",
+        "svm-dcsi",
+        "earlier-bank",
+        "earlier-edges",
+    ],
+)
 def test_mutations_are_sentences_or_do_no_harm(name, files, tmp_path):
     photo = render("desert", 50, 60, 48).photo
     mutations = Mutations(files / f"{name}.npz", seed=1)

@@ -1,0 +1,91 @@
+"""What commands detect with: the short forms, and how they go together with what is named."""
+
+import pytest
+
+import skyline_viz as sv
+from skyline_viz.command_line.messages import UsageError
+from skyline_viz.command_line.methods import Methods, described
+
+
+@pytest.mark.parametrize(
+    ("words", "preset"),
+    [
+        ("detect a.jpg", "default"),
+        ("detect --preset paper a.jpg", "paper"),
+        ("detect --preset=paper a.jpg", "paper"),
+        ("detect --preset paper --preset default", "default"),
+        ("detect --preset", "default"),
+        ("detect --preset moon", "default"),
+        ("detect paper", "default"),
+    ],
+)
+def test_the_preset_is_known_before_parsing(words, preset):
+    assert described(words.split()).config == sv.DetectorConfig.presets()[preset]
+
+
+def chosen(*words, method=(), **changes):
+    """Names of the methods of a command line whose settings differ by some changes."""
+    asked = described(words)
+    bank = next((words[at + 1] for at, word in enumerate(words) if word == "--bank"), None)
+    config = asked.config.with_settings(changes)
+    return Methods(method, bank=bank, config=config, ours=asked.ours).chosen()
+
+
+def names(*words, **more):
+    return [one.name for one in chosen(*words, **more)]
+
+
+def test_short_forms_describe_one_method_beside_those_that_are_named():
+    assert names() == ["default"]
+    assert names(method=("edges",)) == ["edges"]
+    assert names("--preset", "paper", method=("edges",)) == ["paper", "edges"]
+    assert names("--config.delta", "8", delta=8, method=("default",)) == [
+        "default:delta=8",
+        "default",
+    ]
+
+
+def test_a_bank_brings_its_settings_unless_others_are_said(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    paper = sv.DetectorConfig.paper()
+    sv.Detector(config=paper).save("b.npz")
+    for words, more, name, config in (
+        (("--bank", "b.npz"), {}, "b.npz", paper),
+        (("--bank", "b.npz", "--preset", "paper"), {}, "b.npz", paper),
+        (
+            ("--bank", "b.npz", "--config.delta", "4"),
+            {"delta": 4},
+            "b.npz:delta=4",
+            paper.with_settings({"delta": 4}),
+        ),
+        (
+            ("--bank", "b.npz", "--preset", "default"),
+            {},
+            "default:model=b.npz",
+            sv.DetectorConfig(),
+        ),
+        (
+            ("--bank", "b.npz", "--preset", "default", "--config.v", "1"),
+            {"v": 1.0},
+            "default:v=1,model=b.npz",
+            sv.DetectorConfig(v=1.0),
+        ),
+    ):
+        (found,) = chosen(*words, **more)
+        assert (found.name, found.config) == (name, config)
+
+
+def test_one_name_stands_for_one_method(tmp_path):
+    with pytest.raises(UsageError, match="paper is named twice; give one a label: other=paper"):
+        names(method=("paper", "default", "paper"))
+    assert names(method=("paper", "other=paper")) == ["paper", "other"]
+    with pytest.raises(UsageError, match="2 are named: paper, edges"):
+        Methods(("paper", "edges")).one()
+
+
+def test_what_has_learned_is_not_trained(tmp_path):
+    sv.Detector().save(tmp_path / "b.npz")
+    for method in (f"{tmp_path}/b.npz", f"paper:model={tmp_path}/b.npz", f"x={tmp_path}/b.npz:v=1"):
+        with pytest.raises(UsageError, match="has learned already"):
+            Methods((method,)).chosen(to_train=True)
+    assert Methods(("svm-dcsi",)).chosen(to_train=True)[0].name == "svm-dcsi"

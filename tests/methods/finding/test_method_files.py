@@ -1,0 +1,69 @@
+"""Methods as files: of one format, whoever wrote them."""
+
+import json
+
+import numpy as np
+import pytest
+
+import skyline_viz as sv
+from skyline_viz.method import MethodError
+from skyline_viz.methods.finding.method_files import (
+    Trained,
+    load_method,
+    make_method,
+    method_digest,
+    save_method,
+)
+from skyline_viz.methods.sky_network import SkyNetwork
+from skyline_viz.system import headed_npz
+from testing.methods import write_method
+
+
+@pytest.mark.parametrize("name", ["default", "paper", "edges", "gradient"])
+def test_every_kind_comes_back_from_one_format(name, tmp_path):
+    method = make_method(name).labelled("mine")
+    save_method(method, tmp_path / "m.npz", Trained("hills", 4))
+    with np.load(tmp_path / "m.npz") as file:
+        header = json.loads(file["header"].tobytes())
+    assert (header["format"], header["version"]) == (headed_npz.FORMAT, headed_npz.VERSION)
+    again = load_method(tmp_path / "m.npz")
+    assert (again.name, again.settings()) == ("mine", method.settings())
+    assert method_digest(again) == method_digest(method)
+    assert load_method((tmp_path / "m.npz").read_bytes()).settings() == method.settings()
+
+
+def test_a_label_makes_another_digest_and_so_do_settings():
+    digests = {
+        method_digest(sv.find_method(spec))
+        for spec in ("edges", "edges:tog=9", "other=edges", "default", "paper", "x=paper")
+    }
+    assert len(digests) == 6
+
+
+def test_a_network_of_an_earlier_file_is_known_again(tmp_path):
+    network = tmp_path / "sky.onnx"
+    network.write_bytes(b"content")
+    made = SkyNetwork(network, sky_class=2)
+    settings = {"network": str(network), "sky_class": 2, "mean": made.mean, "std": made.std}
+    settings["columns"] = None
+    # as it was made when methods had a format of their own
+    digest = "1819afa532381b41b5a0d410a90806f95828929887b1c508ac4dfc80322bcbc0"
+    path = write_method(tmp_path / "m.npz", "network", settings, digest=digest)
+    assert load_method(path) == made
+    network.write_bytes(b"another")
+    with pytest.raises(MethodError, match="is another one than it was"):
+        load_method(path)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"settings": []}, {"method": 3}, {"label": 3}, {"method": "nobody"}, {"version": 1}],
+    ids=repr,
+)
+def test_other_headers_are_one_sentence(changes, tmp_path):
+    header = {"method": "edges", "label": "", "settings": {}}
+    path = tmp_path / "m.npz"
+    path.write_bytes(headed_npz.packed({**header, **changes}, {}))
+    with pytest.raises(MethodError) as caught:
+        load_method(path)
+    assert str(caught.value).endswith(".")
