@@ -14,6 +14,7 @@ from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.folds import Folds
 from skyline_viz.evaluation.tasks import PhotoTask, compare_photos, photo_tasks, told_once
 from skyline_viz.method import LearnedMethod, Method, MethodError
+from skyline_viz.methods.finding.plugins import as_method
 from skyline_viz.methods.registry import find_method
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import Kept
@@ -176,7 +177,9 @@ def chosen_methods(methods: Methods) -> list[Method]:
         MethodError: One is unknown, or two have the same name.
     """
     given = [methods] if isinstance(methods, str) or not isinstance(methods, Sequence) else methods
-    chosen = [find_method(one) if isinstance(one, str) else one for one in given]
+    chosen: list[Method] = [
+        find_method(one) if isinstance(one, str) else as_method(one) for one in given
+    ]
     names = [one.name for one in chosen]
     if twice := sorted({name for name in names if names.count(name) > 1}):
         raise MethodError(f"two methods are called {twice[0]}, and results go by the name.")
