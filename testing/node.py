@@ -9,7 +9,7 @@ PAGE = Path(__file__).parents[1] / "tests" / "page"
 """Where these tests are."""
 
 
-def tested(name, *options, **environment):
+def node_tests(name, *options, **environment):
     """Run one file of tests.
 
     Args:

@@ -19,7 +19,7 @@ from pathlib import Path
 from benchmarks.reliability import Trial
 from testing.browser import Page, chromium
 from testing.labelling import write_hills
-from testing.node import tested
+from testing.node import node_tests
 from testing.restarts import Restarted, kept
 
 SIZE = {"height": 240, "width": 400}
@@ -148,7 +148,7 @@ def told(kind, body) -> tuple[str | int, ...]:
 
 def schedules() -> Trial:
     """The page's queue in Node, before a network and a server that do what they like."""
-    done = tested("schedules", "--test-reporter=tap", SCHEDULES=str(SCHEDULES))
+    done = node_tests("schedules", "--test-reporter=tap", SCHEDULES=str(SCHEDULES))
     found = re.search(r"# (\d+) clicks, (\{.*\})", done.stdout)
     counts = json.loads(found[2])
     return Trial(

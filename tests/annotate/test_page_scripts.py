@@ -2,12 +2,12 @@
 
 import pytest
 
-from testing.node import PAGE, tested
+from testing.node import PAGE, node_tests
 
 
 @pytest.mark.parametrize(
     "name", sorted(file.name.removesuffix(".test.mjs") for file in PAGE.glob("*.test.mjs"))
 )
 def test_the_modules_of_the_page(name):
-    done = tested(name)
+    done = node_tests(name)
     assert done.returncode == 0, done.stdout
