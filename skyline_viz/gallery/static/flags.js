@@ -76,7 +76,7 @@ class Card {
     this.field.addEventListener("change", () => this.save());
     this.field.addEventListener("input", () => {
       clearTimeout(this.#timer);
-      this.#timer = setTimeout(() => this.save(), PAUSE);
+      this.#timer = window.setTimeout(() => this.save(), PAUSE);
       this.changed();
     });
   }
@@ -238,27 +238,52 @@ class Page {
   /** @param {KeyboardEvent} event */
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey || event.isComposing) return;
-    const visible = this.cards.filter((card) => !card.element.hidden);
-    const at = visible.findIndex((card) => card.element.contains(document.activeElement));
-    const card = visible[at];
-    if (event.target instanceof HTMLTextAreaElement) {
-      if (!card || (event.key !== "Escape" && (event.key !== "Enter" || event.shiftKey))) return;
-      card.save();
-      card.element.focus();
-    } else if (event.target instanceof HTMLSelectElement) {
-      return;
-    } else if (event.key === "j" || event.key === "k") {
-      const next = visible[event.key === "j" ? at + 1 : Math.max(at - 1, 0)];
-      next?.element.focus();
-    } else if (card && event.key === "r") {
-      card.box.click();
-    } else if (card && event.key === "c") {
-      card.field.focus();
-    } else {
-      return;
-    }
+    if (event.target instanceof HTMLSelectElement) return;
+    const card = this.cards.find((one) => one.element.contains(document.activeElement));
+    const writing = event.target instanceof HTMLTextAreaElement;
+    const act = writing ? ending(event, card) : this.#actions(card).get(event.key);
+    if (!act) return;
+    act();
     event.preventDefault();
   }
+
+  /**
+   * What the keys do while no comment is written.
+   * @param {Card | undefined} card - The one with the frame.
+   */
+  #actions(card) {
+    return new Map([
+      ["j", () => this.#step(card, 1)],
+      ["k", () => this.#step(card, -1)],
+      ["r", () => card?.box.click()],
+      ["c", () => card?.field.focus()],
+    ]);
+  }
+
+  /**
+   * Go to the next card that is shown, or the previous one.
+   * @param {Card | undefined} card
+   * @param {1 | -1} way
+   */
+  #step(card, way) {
+    const visible = this.cards.filter((one) => !one.element.hidden);
+    const at = card ? visible.indexOf(card) : -1;
+    visible[Math.max(at + way, 0)]?.element.focus();
+  }
+}
+
+/**
+ * What a key does that ends a comment; nothing for all others.
+ * @param {KeyboardEvent} event
+ * @param {Card | undefined} card
+ */
+function ending(event, card) {
+  const ends = event.key === "Escape" || (event.key === "Enter" && !event.shiftKey);
+  if (!ends || !card) return undefined;
+  return () => {
+    card.save();
+    card.element.focus();
+  };
 }
 
 const page = new Page();
