@@ -1,5 +1,7 @@
 """What speaks against a truth: no contrast along it, and much beside it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -55,10 +57,19 @@ def test_a_truth_that_wanders_or_is_short_is_not(flat):
     assert doubt_of(case(flat, rows), 100, 106) is None
 
 
-def test_where_the_path_is_on_no_edge_either_nothing_speaks_against_the_truth():
-    photo = np.full((120, 300, 3), 128, np.uint8)
-    photo[60:, :80] = photo[60:, 220:] = 20
-    detection = sv.Detector().detect(photo)
+def test_a_truth_that_is_uneven_or_right_in_too_few_columns_is_not(flat):
+    rows = np.full(300, 60.0)
+    rows[100:200] += np.tile([6, 12], 50)  # within the tolerance of the middle, but no line beside
+    assert doubt_of(case(flat, rows), 100, 199) is None
+    rows = np.full(300, 60.0)
+    rows[100:165] += 9
+    rows[165:200] += 20
+    assert doubt_of(case(flat, rows), 100, 199) is None
+
+
+def test_where_the_path_is_on_no_edge_either_nothing_speaks_against_the_truth(flat):
     rows = np.full(300, 60.0)
     rows[100:200] += 9
-    assert doubt_of(Case(detection, sv.Skyline(rows), TOLERANCE), 100, 199) is None
+    assert doubt_of(case(flat, rows), 100, 199) is not None
+    bare = replace(flat, edges=np.zeros_like(flat.edges))
+    assert doubt_of(case(bare, rows), 100, 199) is None

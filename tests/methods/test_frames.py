@@ -42,3 +42,8 @@ def test_a_frame_is_painted_over_and_nothing_else(scene):
     assert inside[0].any()
     assert inside[-1].any()
     assert without_frame(np.zeros((2, 2, 3), np.uint8)).shape == (2, 2, 3)
+
+
+def test_a_photo_that_would_be_all_frame_stays_as_it_is():
+    photo = np.repeat(np.uint8([0, 255, 0, 255]), 30 * 3).reshape(4, 30, 3)
+    np.testing.assert_array_equal(without_frame(photo), photo)

@@ -37,3 +37,9 @@ def test_stable_edges_lie_on_the_skyline(even_scene):
 
 def test_a_photo_of_one_colour_has_no_stable_edges():
     assert not stable_edges(np.full((20, 30, 3), 77, np.uint8)).any()
+
+
+def test_most_thresholds_are_half_of_them_unless_said(scene):
+    stable = stable_edges(scene.photo)
+    np.testing.assert_array_equal(stable, stable_edges(scene.photo, share=0.5))
+    assert stable.sum() < stable_edges(scene.photo, share=0.3).sum()

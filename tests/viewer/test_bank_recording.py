@@ -60,6 +60,9 @@ def test_scrubbing_tells_of_each_column(read, found):
         assert text.startswith(f"**Column {column}**, row {int(found.skyline.rows[column])}")
         if bins[column] >= 0:
             assert bin_label(int(bins[column]), found.bank.bins).capitalize() in text
+            here = found.edge_rows == int(found.skyline.rows[column])
+            (pixel,) = np.flatnonzero(here & (found.edge_columns == column))
+            assert f"Score {found.scores[pixel]:.3f}" in text
         else:
             assert "no filter was used" in text
 

@@ -70,3 +70,9 @@ def test_the_stages_of_another_detector_are_shown_by_their_names():
     shown = origins(blueprint.root_container)
     assert "+ /mine/heat" in shown
     assert "+ /mine/line_of_sight" in shown
+
+
+@pytest.mark.parametrize(("width", "columns"), [(800, 2), (400, 3)])
+def test_wide_photos_have_room_for_two_views_side_by_side(width, columns):
+    stages = detection_blueprint(Contents(300, width)).root_container.contents[1]
+    assert stages.grid_columns == columns
