@@ -9,22 +9,7 @@ import skyline_viz as sv
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.diagnosis.report import Diagnosed, settings_to_try, try_remedies, write_csv
 from skyline_viz.diagnosis.report import _broken as broken
-from skyline_viz.rendering import render
 from testing.detections import flat_truth
-
-
-@pytest.fixture(scope="module")
-def hazy():
-    scene = render("hazy", 1)
-    return sv.Detector().detect(scene.photo), scene.truth
-
-
-@pytest.fixture(scope="module")
-def flat():
-    """A photo with a level ridge in row 60, and its detection, which is right."""
-    photo = np.full((120, 300, 3), 200, np.uint8)
-    photo[60:] = 60
-    return sv.Detector().detect(photo)
 
 
 def test_remedies_neither_repair_nor_break_in_hidden_columns(flat):
