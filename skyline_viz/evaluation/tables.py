@@ -19,8 +19,10 @@ from skyline_viz.evaluation.results import PhotoResult, Summary
 from skyline_viz.evaluation.timing import Timing
 from skyline_viz.evaluation.training_runs import train_on
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.method import Method
+from skyline_viz.method import Learner, Method
+from skyline_viz.methods.finding.plugins import PluggedIn
 from skyline_viz.methods.registry import model_bytes
+from skyline_viz.methods.sky_network import SkyNetwork
 from skyline_viz.running.resume import Kept
 
 SIZES = (7, 9, 11, 13, 15)
@@ -67,7 +69,8 @@ def table_1(measured: Mapping[str, Evaluation], folds: int) -> Table:
     for dataset, compared in measured.items():
         for name, results in compared.results.items():
             if results:
-                rows.append((_title(name), dataset, _trained(name, folds), *_all_errors(results)))
+                learned = _trained(compared.methods[name], folds)
+                rows.append((_title(name), dataset, learned, *_all_errors(results)))
     for dataset, figures in published.TABLE_1.items():
         for name, errors in figures.items():
             rows.append(
@@ -183,7 +186,7 @@ def table_5(measured: Mapping[str, Evaluation], folds: int) -> Table:
                     (
                         _title(name),
                         dataset,
-                        _trained(name, folds),
+                        _trained(compared.methods[name], folds),
                         f"{accuracy:.4f}",
                         one.mean,
                         one.standard_deviation,
@@ -245,10 +248,10 @@ def _title(name: str) -> str:
     return published.TITLES.get(name, name)
 
 
-def _trained(name: str, folds: int) -> str:
-    if name in ("edges", "gradient") or name not in published.TITLES:
-        return "nothing" if name in published.TITLES else "elsewhere"
-    return f"the other folds of {folds}"
+def _trained(method: Method, folds: int) -> str:
+    if isinstance(method, Learner):
+        return f"the other folds of {folds}"
+    return "elsewhere" if isinstance(method, SkyNetwork | PluggedIn) else "nothing"
 
 
 def _published_training(name: str) -> str:

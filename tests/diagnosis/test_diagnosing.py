@@ -159,9 +159,3 @@ def test_a_truth_that_climbs_wildly_gets_fewer_tries(flat):
     (steep,) = (one for one in segment.trials if {"cheaper path", "too steep"} <= set(one.changes))
     (plain,) = (one for one in segment.trials if one.changes == ("cheaper path",))
     assert steep.lines < plain.lines == 8
-
-
-def test_five_right_columns_do_not_end_a_segment_and_six_do():
-    wrong = np.zeros(30, bool)
-    wrong[[3, 9, 16]] = True
-    assert failing_runs(wrong) == [(3, 9), (16, 16)]

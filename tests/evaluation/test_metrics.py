@@ -13,6 +13,7 @@ from skyline_viz.evaluation.metrics import (
     column_errors,
     is_gross_miss,
     segmentation_accuracy,
+    wrong_segments,
 )
 from skyline_viz.skyline import Skyline, SkylineError
 
@@ -99,3 +100,9 @@ def test_gross_miss_is_over_5_percent_of_the_height():
     assert GROSS_MISS_SHARE == 0.05
     assert not is_gross_miss(10.0, 200)
     assert is_gross_miss(math.nextafter(10.0, 11), 200)
+
+
+def test_five_right_columns_do_not_end_a_segment_and_six_do():
+    errors = np.zeros(30)
+    errors[[3, 9, 16]] = 9
+    assert wrong_segments(errors, height=100) == ((3, 9), (16, 16))
