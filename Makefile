@@ -1,7 +1,7 @@
 .DEFAULT_GOAL := help
 .PHONY: help demo test check docs coverage bounds fuzz legs ci bench reliability pictures samples lock clean
 
-SOURCES = pyproject.toml requirements.txt requirements-dev.txt tools/setup.sh tools/page/package-lock.json
+SOURCES = pyproject.toml requirements.txt tools/setup.sh
 MKDOCS = NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict --quiet
 PYTEST = .venv/bin/python -m pytest
 # The tests of each module with a compiled loop.
@@ -57,15 +57,16 @@ pictures: .venv/.installed-dev  ## Draw the pictures of the docs again.
 	    --compare paper --screenshot docs/inspect.jpg
 	.venv/bin/python -m tools.viewer_pictures docs
 	.venv/bin/skyline-viz gallery sample_data --screenshot docs/gallery.jpg
+	.venv/bin/python -m tools.flag_picture docs
 	.venv/bin/python -m tools.page_pictures docs
 
 samples: .venv/.installed-run  ## Rebuild sample_data, byte for byte.
 	.venv/bin/skyline-viz render --out sample_data
 
-LOCK = .venv/bin/uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes \
+LOCK = .venv/bin/uv pip compile --quiet $(if $(UPGRADE),--upgrade) --universal --python-version 3.11 --generate-hashes \
     --no-emit-index-url --no-header pyproject.toml --group build
 
-lock: .venv/.installed-dev  ## Renew the locked versions: what development needs, and of that what running needs.
+lock: .venv/.installed-dev  ## Lock what development and running need; UPGRADE=1 takes the newest versions.
 	$(LOCK) --group dev --output-file requirements-dev.txt
 	$(LOCK) --constraints requirements-dev.txt --output-file requirements.txt
 
@@ -75,5 +76,5 @@ clean:  ## Remove the environments and what was built and shown.
 .venv/.installed-run: $(SOURCES)
 	tools/setup.sh run
 
-.venv/.installed-dev: $(SOURCES)
+.venv/.installed-dev: $(SOURCES) requirements-dev.txt tools/page/package-lock.json
 	tools/setup.sh dev

@@ -20,8 +20,8 @@ _GALLERY = """
 import resource, sys
 from pathlib import Path
 from skyline_viz import Detector
-from skyline_viz.commands.inputs import collect
-from skyline_viz.gallery import Gallery, Shot
+from skyline_viz.command_line.inputs import collect
+from skyline_viz.gallery.store import Gallery, Shot
 shots = [Shot(one.name, one.item) for one in collect([Path(sys.argv[1])])][:int(sys.argv[2])]
 done = sum(1 for _ in Gallery(Path(sys.argv[3])).build(shots, Detector(), workers=1))
 status = Path("/proc/self/status").read_text()

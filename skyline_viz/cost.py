@@ -18,7 +18,7 @@ def normalised(strength: F32, percentile: float) -> F32:
     if len(strength) == 0:
         return strength
     top = np.percentile(strength, percentile)
-    return np.clip(strength / top, 0.0, 1.0) if top > 0 else np.zeros_like(strength)
+    return np.clip(strength, 0.0, top) / top if top > 0 else np.zeros_like(strength)
 
 
 def edge_cost(scores: F32, strength: F32, v: float) -> F32:

@@ -35,6 +35,7 @@ class Page:
         self.open()
         self.page.locator("#first-dialog button").click()
         self.page.locator("#first-dialog").wait_for(state="hidden")
+        self.page.locator("#lines:focus").wait_for()  # which is told a moment later
 
     def _heard(self, message):
         if message.type == "error" and "Failed to load resource" not in message.text:

@@ -27,6 +27,14 @@ def write_scene(path, number=0):
     return path
 
 
+def write_scenes(root, count):
+    """A plain data set: photos ``p0.png`` and so on, each with its truth."""
+    for number in range(count):
+        write_scene(root / "images" / f"p{number}.png", number)
+        scene(number)[1].write_csv(root / "masks" / f"p{number}.csv")
+    return root
+
+
 def program(*words, **options):
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-m", "skyline_viz", *map(str, words)]

@@ -8,8 +8,23 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.config import DetectorConfig
+from skyline_viz.detector import Detector
 from skyline_viz.evaluation.results import PhotoResult
+from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
+
+
+def hazy():
+    """The detection of a scene whose ridge is lost in haze, and its truth."""
+    scene = render("hazy", 1)
+    return Detector().detect(scene.photo), scene.truth
+
+
+def flat():
+    """A photo with a level ridge in row 60, and its detection, which is right."""
+    photo = np.full((120, 300, 3), 200, np.uint8)
+    photo[60:] = 60
+    return Detector().detect(photo)
 
 
 def flat_truth(wrong, by, visible=None):

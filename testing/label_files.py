@@ -344,3 +344,21 @@ def said_about(path, **options):
     assert said.endswith(".")
     assert len(said.splitlines()) == 1
     return said
+
+
+def cut_up(document, chance):
+    """A document as bytes, of which some are other ones, or missing."""
+    text = document if isinstance(document, bytes | str) else json.dumps(document)
+    whole = bytearray(text if isinstance(text, bytes) else text.encode())
+    for _ in range(chance.randint(1, 6)):
+        place = chance.randrange(len(whole))
+        whole[place : place + chance.randint(0, 3)] = chance.choice(
+            [b"", b"-", b"9", b"null", b"[", b"}", b'"', b"\xff", b"1e999", b","]
+        )
+    return bytes(whole)
+
+
+def packed(folder, path):
+    """The files of a folder as a ZIP."""
+    files = [file for file in folder.rglob("*") if file.is_file()]
+    return zipped(path, {one.relative_to(folder).as_posix(): one.read_bytes() for one in files})

@@ -13,11 +13,12 @@ import uvicorn
 
 from annotate.commands.open import bound
 from annotate.server.app import make_app
-from annotate.server.security import TOKEN_HEADER, allowed_hosts
+from annotate.server.security import TOKEN_HEADER
 from annotate.store.store import Store
 from annotate.work.workbench import Assignment, Workbench
 from skyline_viz.detector import Detector
 from skyline_viz.photo import write_photo
+from skyline_viz.system.loopback import allowed_hosts
 from testing import until
 
 TOKEN = "a-token-for-tests"
@@ -51,6 +52,12 @@ def workbench(folder, annotator="ann", detector=DETECTOR, **how):
 def asked(revision=-1, **body):
     """What the page sends for a change: ``operation=...``, or nothing more for undo and redo."""
     return {"id": str(uuid.uuid4()), "revision": revision, **body}
+
+
+def done(client, photo, operation, revision=-1):
+    """What the server answers to an operation."""
+    body = asked(revision, operation=operation)
+    return client.post(f"/api/photos/{photo}/operations", json=body)
 
 
 @contextmanager

@@ -2,15 +2,19 @@
 
 import json
 
+import numpy as np
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from annotate.engine.edits import EditError, Edits
 from annotate.store.history import State
+from annotate.store.lines import Line
 from annotate.store.operations import LOGGED, Edit
+from skyline_viz.skyline import Skyline
 
 HEIGHT, WIDTH = 30, 40
 EMPTY = State(Edits(HEIGHT, WIDTH))
+LINE = Line(Skyline(rows=[3, 4, 9]), np.array([0, 1, 3], np.uint8))
 columns, rows = st.integers(0, WIDTH - 1), st.integers(0, HEIGHT - 1)
 edits = st.one_of(
     st.fixed_dictionaries({"kind": st.just("anchor"), "column": columns, "row": rows}),
@@ -94,3 +98,9 @@ def known_to_version_1(kept):
             undone.clear()
     status = status or ("in progress" if edited else "to do")
     return tuple(done), tuple(undone), status, tuple(tags), seconds
+
+
+def anchor(store, label, column, row=5):
+    """Add an anchor to the log of a label; the line after it is three columns wide."""
+    body = {"column": column, "row": row}
+    return store.append(label, -1, "anchor", body, LINE)

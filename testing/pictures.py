@@ -7,10 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from skyline_viz.photo import (
-    PhotoError,
-    read_photo,
-)
+from skyline_viz.photo import PhotoError, read_photo
 
 # A picture that survives JPEG: 16x16 blocks of one colour, no two rotations of it alike.
 BLOCKS = np.array(

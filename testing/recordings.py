@@ -8,11 +8,13 @@ import numpy as np
 from rerun.chunk import RrdReader
 
 import skyline_viz as sv
-from skyline_viz.viewer.process import PROGRAM
+from skyline_viz.config import FILTER_SIZES, TrainingConfig
+from skyline_viz.training import train
+from skyline_viz.viewer.rerun_internals import program
 
 
 def verify(path):
-    subprocess.run([PROGRAM, "rrd", "verify", path], check=True, capture_output=True)
+    subprocess.run([program(), "rrd", "verify", path], check=True, capture_output=True)
 
 
 class Read:
@@ -106,3 +108,11 @@ def scene(height=90, width=120, noise=6, seed=0):
     photo = np.where(sv.Skyline(rows).to_mask(height)[..., None], (150, 190, 230), (70, 80, 50))
     photo = photo + generator.normal(0, noise, photo.shape)
     return photo.clip(0, 255).astype(np.uint8), sv.Skyline(rows, np.arange(width) != 60)
+
+
+def banks_of_sizes(sizes=FILTER_SIZES):
+    """Filter banks of some sizes, learned from two scenes."""
+    return [
+        train([scene(seed=1), scene(seed=2)], 0, TrainingConfig(filter_size=size), "two scenes")
+        for size in sizes
+    ]

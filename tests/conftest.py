@@ -3,7 +3,7 @@
 import pytest
 
 from skyline_viz.cli import main
-from testing.commands import scene, write_scene
+from testing.commands import write_scenes
 
 
 @pytest.fixture(autouse=True, scope="session")
@@ -17,11 +17,7 @@ def state_of_their_own(tmp_path_factory):
 @pytest.fixture(scope="session")
 def hills(tmp_path_factory):
     """A data set of four photos with truth; nobody writes here."""
-    root = tmp_path_factory.mktemp("data") / "hills"
-    for number in range(4):
-        write_scene(root / "images" / f"p{number}.png", number)
-        scene(number)[1].write_csv(root / "masks" / f"p{number}.csv")
-    return root
+    return write_scenes(tmp_path_factory.mktemp("data") / "hills", 4)
 
 
 @pytest.fixture

@@ -8,24 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
-from skyline_viz.photo import (
-    MAX_MEGAPIXELS,
-    PhotoError,
-    photo_size,
-    read_photo,
-    write_photo,
-)
+from skyline_viz.photo import MAX_MEGAPIXELS, PhotoError, photo_size, read_photo, write_photo
 from testing.examples import examples
-from testing.pictures import (
-    EVERY_FORMAT,
-    LOSSLESS,
-    NOISE,
-    PHOTO,
-    bomb,
-    close,
-    refusal,
-    save,
-)
+from testing.pictures import EVERY_FORMAT, LOSSLESS, NOISE, PHOTO, bomb, close, refusal, save
 
 
 @pytest.mark.parametrize("name", LOSSLESS)

@@ -162,7 +162,7 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
     import uvicorn  # noqa: PLC0415
 
     from annotate.server.app import make_app  # noqa: PLC0415
-    from annotate.server.security import allowed_hosts  # noqa: PLC0415
+    from skyline_viz.system.loopback import allowed_hosts  # noqa: PLC0415
     from skyline_viz.viewer.process import has_display  # noqa: PLC0415
 
     listener, token = found_again(bench.store, host, port)

@@ -17,11 +17,11 @@ from annotate.server.messages import (
     ShownAlternative,
     Step,
 )
-from annotate.server.stage_viewer import stages
 from annotate.store.store import StaleError
 from annotate.work.session import Session
 from annotate.work.workbench import Workbench
 from skyline_viz.photo import PhotoError
+from skyline_viz.viewer.in_memory import recorded
 
 router = APIRouter(prefix="/photos/{photo}")
 
@@ -96,7 +96,7 @@ def recording(bench: Bench, photo: PhotoId) -> Response:
         raise HTTPException(403, BLIND)
     with session.lock:
         line = session.wire.skyline
-    data = stages(bench.detection(photo), line, session.photo.name)
+    data = recorded(bench.detection(photo), line, session.photo.name)
     return Response(data, media_type="application/octet-stream")
 
 

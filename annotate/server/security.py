@@ -17,6 +17,7 @@ from typing import Any, TypeAlias
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import JSONResponse
 
+from skyline_viz.system.loopback import HEADERS, policy, why_refused
 from skyline_viz.viewer.web_viewer import POLICY as VIEWER_POLICY
 
 Scope: TypeAlias = MutableMapping[str, Any]
@@ -34,19 +35,7 @@ PASS_HEADER = "X-Skyline-Pass"  # noqa: S105  # neither
 MOST_BYTES = 2_000_000
 """Largest body of a request."""
 
-_POLICY = (
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
-    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-)
-_HEADERS = {
-    "Content-Security-Policy": _POLICY,
-    "X-Content-Type-Options": "nosniff",
-    "X-Frame-Options": "DENY",
-    "Referrer-Policy": "no-referrer",
-    "Cross-Origin-Opener-Policy": "same-origin",
-    "Cross-Origin-Resource-Policy": "same-origin",
-    "Cache-Control": "no-store",
-}
+_POLICY = policy(images="blob:")
 _VIEWER = "/static/stages/"  # the page with Rerun's viewer, which is WebAssembly
 _CHANGING = ("POST", "PUT", "PATCH", "DELETE")
 
@@ -77,8 +66,9 @@ class Guard:
         async def sealed(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
-                for name, value in _HEADERS.items():
+                for name, value in HEADERS.items():
                     headers[name] = value
+                headers["Content-Security-Policy"] = _POLICY
                 headers[PASS_HEADER] = self._shown
                 if scope["path"].startswith(_VIEWER):
                     headers["Content-Security-Policy"] = VIEWER_POLICY
@@ -97,12 +87,9 @@ class Guard:
     def _refusal(self, scope: Scope) -> JSONResponse | None:
         """What is wrong with a request; None where nothing is."""
         headers = Headers(scope=scope)
-        origin = headers.get("origin")
-        if len(headers.getlist("host")) != 1 or headers["host"].lower() not in self._hosts:
-            return _no(421, "this server is not called by that name.")
-        scheme, _, name = (origin or "").lower().partition("://")
-        if origin is not None and (scheme != "http" or name not in self._hosts):
-            return _no(403, "another website may not call this server.")
+        hosts, origin = headers.getlist("host"), headers.get("origin")
+        if refusal := why_refused(hosts, origin, self._hosts):
+            return _no(*refusal)
         if not self._knows_token(scope, headers):
             return _no(401, "the token is missing or wrong; open the address that was printed.")
         if headers.get(PASS_HEADER, self._shown) != self._shown:
@@ -150,16 +137,6 @@ def _replay(body: bytes, receive: Receive) -> Receive:
         return {"type": "http.request", "body": body, "more_body": False}
 
     return again
-
-
-def allowed_hosts(host: str, port: int) -> frozenset[str]:
-    """Names under which a server may be called that listens on `host`.
-
-    >>> sorted(allowed_hosts("127.0.0.1", 8000))
-    ['127.0.0.1:8000', '[::1]:8000', 'localhost:8000']
-    """
-    names = {"127.0.0.1", "localhost", "[::1]", f"[{host}]" if ":" in host else host}
-    return frozenset(f"{name.lower()}:{port}" for name in names)
 
 
 def _no(status: int, detail: str) -> JSONResponse:

@@ -28,6 +28,18 @@ export function thinned(points) {
 }
 
 /**
+ * Where the brush goes: through the middle of pixels. A dot has two points, since a line of no length is not drawn.
+ *
+ * @param {Point[]} points - Pixels.
+ * @returns {Point[]}
+ */
+export function brushed(points) {
+  const middles = points.map(([column, row]) => /** @type {Point} */ ([column + 0.5, row + 0.5]));
+  const [x, y] = middles[0];
+  return middles.length > 1 ? middles : [[x, y], [x + 0.01, y]];
+}
+
+/**
  * First column and a row a column of a drawn stroke; where it goes back, what was drawn last counts.
  *
  * @param {Point[]} points

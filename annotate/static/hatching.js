@@ -1,6 +1,7 @@
 /** What the brush forbids, hatched so that the photo is seen through it. */
 
 import { follow, hiddenPenOf } from "./drawing.js";
+import { brushed } from "./geometry.js";
 
 /** @import { Document } from "./types.js" */
 
@@ -23,8 +24,7 @@ export function hatched({ width, height, forbidden }) {
     pen.globalCompositeOperation = allow ? "destination-out" : "source-over";
     pen.lineWidth = 2 * radius + 1;
     pen.beginPath();
-    follow(pen, points.map(([column, row]) => [column + 0.5, row + 0.5]));
-    if (points.length === 1) pen.lineTo(points[0][0] + 0.51, points[0][1] + 0.5); // a dot
+    follow(pen, brushed(points));
     pen.stroke();
   }
   pen.globalCompositeOperation = "source-in";

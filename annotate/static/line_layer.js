@@ -1,6 +1,7 @@
 /** Draws what belongs to the line: the line itself as one path, previews, anchors, the brush. */
 
 import { ANCHOR, BRUSHES, disc, follow, penOf, ratio, softHalo, withNextFrame } from "./drawing.js";
+import { brushed } from "./geometry.js";
 import { hatched } from "./hatching.js";
 import { magnify } from "./magnifier.js";
 import { paintWaiting, sketched } from "./waiting.js";
@@ -133,10 +134,8 @@ export class LineLayer {
    */
   #paintStroke(pen, { kind, points, radius, allow }, colours) {
     const path = new Path2D();
-    const down = kind === "forbid" ? 0.5 : 0;
-    follow(path, points.map(([column, row]) => [column + 0.5, row + down]));
+    follow(path, kind === "forbid" ? brushed(points) : points.map(([column, row]) => [column + 0.5, row]));
     if (kind !== "forbid") return this.#trace(pen, path, colours.preview);
-    if (points.length === 1) path.lineTo(points[0][0] + 0.51, points[0][1] + down); // a dot
     pen.strokeStyle = allow ? BRUSHES.allow : BRUSHES.forbid;
     pen.lineWidth = 2 * radius + 1;
     pen.stroke(path);

@@ -1,6 +1,7 @@
 /** What waits for the server, as it can be drawn before the line is known that follows from it. */
 
 import { ANCHOR, BRUSHES, follow, softHalo } from "./drawing.js";
+import { brushed } from "./geometry.js";
 import { isChange } from "./operations.js";
 
 /** @import { Point } from "./geometry.js" */
@@ -103,11 +104,8 @@ function remove(found, column) {
  * @param {Point[]} anchors - That the photo has.
  */
 export function paintWaiting(pen, sketch, view, colours, anchors) {
-  /**
-   * @param {Point} pixel
-   * @param {number} [down]
-   */
-  const at = ([column, row], down = 0) => view.toScreen(column + 0.5, row + down);
+  /** @param {Point} pixel */
+  const at = ([column, row]) => view.toScreen(column + 0.5, row);
   const outline = () => {
     for (const [style, width] of /** @type {[string, number][]} */ ([[softHalo(colours), 4.5], [colours.preview, 2]])) {
       Object.assign(pen, { strokeStyle: style, lineWidth: width });
@@ -116,7 +114,7 @@ export function paintWaiting(pen, sketch, view, colours, anchors) {
   };
   for (const { points, radius, allow } of sketch.strokes) {
     pen.beginPath();
-    follow(pen, [...points, points[points.length - 1]].map((point) => at(point, 0.5))); // one point is a dot
+    follow(pen, brushed(points).map((point) => view.toScreen(...point)));
     pen.strokeStyle = allow ? BRUSHES.allow : BRUSHES.forbid;
     pen.lineWidth = (2 * radius + 1) * view.scale;
     pen.stroke();
@@ -124,7 +122,7 @@ export function paintWaiting(pen, sketch, view, colours, anchors) {
   pen.setLineDash([3, 4]);
   for (const path of sketch.paths) {
     pen.beginPath();
-    follow(pen, path.map((point) => at(point)));
+    follow(pen, path.map(at));
     outline();
   }
   for (const band of sketch.bands) paintBand(pen, band, view, colours, outline);

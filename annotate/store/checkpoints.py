@@ -21,6 +21,7 @@ EVERY = 100
 """Operations of a label from one checkpoint to the next."""
 
 _VERSION = 1  # to be raised whenever the same log gives another state
+_SAME = ("taken", "status", "tags", "seconds", "at", "count", "last", "revision")  # as in a state
 
 
 class _Part(BaseModel):
@@ -75,14 +76,7 @@ def packed(state: State, label: int) -> bytes:
         ),
         hidden=edits.hidden,
         steps=[(one.change, one.status) for one in state.steps],
-        taken=state.taken,
-        status=state.status,
-        tags=state.tags,
-        seconds=state.seconds,
-        at=state.at,
-        count=state.count,
-        last=state.last,
-        revision=state.revision,
+        **{name: getattr(state, name) for name in _SAME},
     )
     return zlib.compress(checkpoint.model_dump_json(by_alias=True).encode(), 1)
 
@@ -111,12 +105,5 @@ def unpacked(data: bytes, label: int, empty: Edits) -> State | None:
             found.hidden,
         ),
         steps=tuple(Step(change, status) for change, status in found.steps),
-        taken=found.taken,
-        status=found.status,
-        tags=found.tags,
-        seconds=found.seconds,
-        at=found.at,
-        count=found.count,
-        last=found.last,
-        revision=found.revision,
+        **{name: getattr(found, name) for name in _SAME},
     )

@@ -6,7 +6,6 @@ the line that the file was made from.
 
 from __future__ import annotations
 
-import json
 import random
 import tempfile
 from collections.abc import Callable, Iterator
@@ -186,16 +185,9 @@ def _damaged_documents() -> Trial:
         write_photo(folder / "photos" / made.NAME, made.photo())
         for _ in range(DOCUMENTS):
             kind = chance.choice(list(documents.READ))
-            document = documents.READ[kind]
-            text = document if isinstance(document, bytes | str) else json.dumps(document)
-            whole = bytearray(text if isinstance(text, bytes) else text.encode())
-            for _ in range(chance.randint(1, 6)):
-                place = chance.randrange(len(whole))
-                whole[place : place + chance.randint(0, 3)] = chance.choice(
-                    [b"", b"-", b"9", b"null", b"[", b"}", b'"', b"\xff", b"1e999", b","]
-                )
+            whole = made.cut_up(documents.READ[kind], chance)
             ending = "xml" if kind.startswith("cvat") else "json"
-            file = made.written(folder / f"a.{ending}", bytes(whole))
+            file = made.written(folder / f"a.{ending}", whole)
             try:
                 import_labels(file, folder / "photos", [made.NAME])
             except FormatError as error:

@@ -26,15 +26,7 @@ from annotate.store.store import Store
 from benchmarks.reliability import Trial
 from skyline_viz.skyline import Skyline
 from testing.labelling import asked, started, write_hills
-from testing.logs import (
-    EMPTY,
-    edits,
-    known_to_version_1,
-    logs,
-    new_moves,
-    old_moves,
-    others,
-)
+from testing.logs import EMPTY, edits, known_to_version_1, logs, new_moves, old_moves, others
 
 _KILLS = 25
 _DISKS = 12

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
@@ -45,8 +45,10 @@ if TYPE_CHECKING:
     from skyline_viz.gallery.table import ServedGallery
     from skyline_viz.method import Method
 
+FlaggedPhotos: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="PHOTO [PHOTO ...]")]
+
 LOOK_EVERY = 0.5
-"""Seconds between two looks at what was edited in the viewer."""
+"""Seconds between two looks at what people said about photos, and at whether to end."""
 
 PICTURE = (1280, 840)
 """Width and height of a picture of the cards, in pixels: two rows of them are whole."""
@@ -54,7 +56,7 @@ PICTURE = (1280, 840)
 
 @dataclass(frozen=True)
 class GalleryCommand:
-    """Detect a data set and show it as cards, the worst first: review, comment, look inside."""
+    """Detect a data set and show it as cards, the worst first: look inside, review, comment."""
 
     photos: Annotated[
         tuple[Path, ...],
@@ -69,6 +71,16 @@ class GalleryCommand:
     cause: Annotated[Cause | None, tyro.conf.arg(metavar="CAUSE")] = None
     """Show only photos that went wrong by this cause, in any of their failing segments: truth
     doubtful, missed edge, starved bin, misjudged, too steep or cheaper path."""
+
+    flag: FlaggedPhotos = ()
+    """Mark photos of the gallery as reviewed, by name or file, and print what is said about them;
+    nothing is detected or shown."""
+
+    unflag: FlaggedPhotos = ()
+    """Take that back."""
+
+    comment: Annotated[str | None, tyro.conf.arg(metavar="TEXT")] = None
+    """Comment on the photos of --flag or --unflag; an empty text takes a comment away."""
 
     list_flags: Switch = False
     """Print what was reviewed and commented, a photo a line, separated by tabs; nothing else."""
@@ -102,6 +114,11 @@ class GalleryCommand:
 
     def run(self) -> int:
         """Detect what is new, show, and keep what people say; return the exit status."""
+        if self.comment is not None and not (self.flag or self.unflag):
+            raise UsageError("on which photos? Name them with --flag or --unflag.")
+        if self.flag or self.unflag:
+            said = change_flags(self.out, self.flag, self.unflag, self.comment)
+            return list_flags(self.out, None if self.list_flags else said)
         if self.list_flags:
             return list_flags(self.out)
         if not self.photos:
@@ -159,28 +176,27 @@ def build(
 
 def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: Cause | None = None) -> None:
     """Serve a gallery, in a window where there is a display, until it is closed or Ctrl-C."""
-    from skyline_viz.gallery.hand import ended_edits  # noqa: PLC0415
-    from skyline_viz.viewer.process import free_port, has_display, open_viewer  # noqa: PLC0415
+    from skyline_viz.gallery.flag_page import flag_page  # noqa: PLC0415
+    from skyline_viz.viewer.process import has_display, open_viewer  # noqa: PLC0415
 
     with (
         _served(out, entries, cause) as gallery,
+        flag_page(gallery.gallery, entries) as page,
         _stopped_politely() as stop,
         ExitStack() as around,
     ):
         viewer = None
         if window and has_display():
-            port = free_port()
-            viewer = open_viewer([gallery.address], port)
+            viewer = open_viewer([gallery.address])
             around.callback(ended, viewer)
-            around.enter_context(ended_edits(port, lambda: gallery.reviewed))
-            tell("Enter ends a comment. A moment later all is on disk.")
         else:
             if window:
                 say("there is no display to open the viewer on; --screenshot FILE.png needs none.")
             tell(f"Look at it with: rerun {gallery.address}")
-            tell("Ctrl-C ends.")
+        tell(f"Review and comment in a browser: {page}")
+        tell("Ctrl-C ends." if viewer is None else "Closing the viewer, or Ctrl-C, ends both.")
         while not stop.wait(LOOK_EVERY) and (viewer is None or viewer.poll() is None):
-            gallery.save_edits()
+            gallery.refresh()
 
 
 def show_picture(
@@ -194,16 +210,60 @@ def show_picture(
     tell(str(path))
 
 
-def list_flags(out: Path) -> int:
-    """Print name, whether reviewed (1 or 0) and comment of each photo that has either."""
+def change_flags(
+    out: Path, flag: Sequence[str], unflag: Sequence[str], comment: str | None
+) -> list[str]:
+    """Review photos of a gallery, take that back, or comment on them: all of it or nothing.
+
+    Args:
+        out: Folder of the gallery.
+        flag: Photos that are reviewed now.
+        unflag: Photos that are not.
+        comment: What to say about them all; None leaves what was said.
+
+    Returns:
+        The names of the photos.
+    """
+    from skyline_viz.gallery import flags  # noqa: PLC0415
     from skyline_viz.gallery.store import Gallery  # noqa: PLC0415
 
-    if not out.is_dir():
-        raise UsageError(f"{out} is no gallery; --out names its folder.")
-    for name, flag in Gallery(out).flags().items():
+    gone = dict.fromkeys(flags.read_flags(_existing(out)), "")
+    entries = Gallery(out).entries().values()
+    if not entries:
+        raise UsageError(
+            f"{out} holds no photos, or those of an earlier version; bring it up to date first: "
+            f"skyline-viz gallery DATASET --out {out}"
+        )
+    files = gone | {entry.name: entry.photo for entry in entries}
+    done, undone = flags.find_names(flag, files), flags.find_names(unflag, files)
+    if both := set(done) & set(undone):
+        raise UsageError(f"{min(both)} cannot be both flagged and not.")
+    changes = {name: flags.Change(name in done, comment) for name in (*done, *undone)}
+    flags.change_flags(out, changes)
+    return [*changes]
+
+
+def list_flags(out: Path, names: Sequence[str] | None = None) -> int:
+    """Print name, whether reviewed (1 or 0) and comment of photos.
+
+    Args:
+        out: Folder of the gallery.
+        names: The photos; those that are reviewed or commented unless given.
+    """
+    from skyline_viz.gallery.flags import Flag, read_flags  # noqa: PLC0415
+
+    flags = read_flags(_existing(out))
+    for name in flags if names is None else names:
+        flag = flags.get(name, Flag())
         comment = " ".join(flag.comment.split())
         tell_row(name, str(int(flag.reviewed)), comment)
     return GOOD
+
+
+def _existing(out: Path) -> Path:
+    if not out.is_dir():
+        raise UsageError(f"{out} is no gallery; --out names its folder.")
+    return out
 
 
 @contextmanager

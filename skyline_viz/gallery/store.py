@@ -3,8 +3,9 @@
 A gallery is a folder::
 
     recordings/NAME.rrd   stages of each photo, lean; odd names are spelt in plain letters
+    thumbnails/NAME.jpg   each photo with its lines, small
     gallery.json          what each detection came to, why, and what it was made from
-    flags.json            which photos are reviewed, and comments
+    flags.json            which photos are reviewed, and comments, see `flags`
 
 Every file is whole at any time. A photo is detected again only when it, its truth, the filter bank
 or the configuration has changed since, so a run that was interrupted goes on where it stopped.
@@ -12,7 +13,6 @@ or the configuration has changed since, so a run that was interrupted goes on wh
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
@@ -25,7 +25,8 @@ import numpy as np
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.diagnosis.diagnosing import diagnose
-from skyline_viz.files import write_text
+from skyline_viz.gallery.documents import made, read_list, write_list
+from skyline_viz.gallery.thumbnails import write_thumbnail
 from skyline_viz.method import Method
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.resume import digest_of_files, digest_of_method
@@ -36,16 +37,10 @@ from skyline_viz.viewer.diagnosis_recording import log_diagnosis
 from skyline_viz.viewer.recording import log_detection, new_recording
 from skyline_viz.viewer.report import listed_segments
 
-VERSION = 3
+VERSION = 4
 """Of recordings and gallery.json; all of an earlier one are made anew."""
 
-_FLAGS_VERSION = 1  # of flags.json, which outlives the others
-
 _SAVE_EVERY = 1.0  # seconds
-
-
-class GalleryError(ValueError):
-    """A gallery's file is damaged; the message names it and says why."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +55,12 @@ class Entry:
 
     made_from: str
     """Digest of photo, truth, filter bank and configuration."""
+
+    height: int
+    """Rows of the photo."""
+
+    width: int
+    """Its columns."""
 
     margin: float
     """How sure the path is; small is uncertain."""
@@ -110,17 +111,6 @@ class Entry:
 
 
 @dataclass(frozen=True)
-class Flag:
-    """What people said about a photo."""
-
-    reviewed: bool = False
-    """Whether somebody has looked at it."""
-
-    comment: str = ""
-    """Their comment."""
-
-
-@dataclass(frozen=True)
 class Shot:
     """A photo to put into a gallery."""
 
@@ -142,6 +132,10 @@ class Gallery:
         """File of a photo's recording."""
         return self.folder / "recordings" / f"{recording_id(name)}.rrd"
 
+    def thumbnail(self, name: str) -> Path:
+        """File of a small picture of a photo with its lines."""
+        return self.folder / "thumbnails" / f"{recording_id(name)}.jpg"
+
     def entries(self) -> dict[str, Entry]:
         """Photos that were done, by name; none of those that an earlier version did.
 
@@ -149,34 +143,19 @@ class Gallery:
             GalleryError: The file is damaged.
         """
         entries = {}
-        for one in _read(self.folder / "gallery.json", "photos", VERSION):
+        for one in read_list(self.folder / "gallery.json", "photos", VERSION):
             if one.get("segments") is not None:
                 one["segments"] = tuple((int(a), int(b)) for a, b in one["segments"])
             if one.get("causes") is not None:
                 one["causes"] = tuple(one["causes"])
-            entry = _made(Entry, self.folder / "gallery.json", one)
+            entry = made(Entry, self.folder / "gallery.json", one)
             entries[entry.name] = entry
         return entries
-
-    def flags(self) -> dict[str, Flag]:
-        """What people said, by name, also of photos that are no longer in the data set.
-
-        Raises:
-            GalleryError: The file is damaged.
-        """
-        path = self.folder / "flags.json"
-        said = _read(path, "flags", _FLAGS_VERSION)
-        return {one.pop("name", ""): _made(Flag, path, one) for one in said}
 
     def save_entries(self, entries: Sequence[Entry]) -> None:
         """Write what was done."""
         done = [asdict(entry) for entry in entries]
-        _write(self.folder / "gallery.json", "photos", done, VERSION)
-
-    def save_flags(self, flags: dict[str, Flag]) -> None:
-        """Write what people said."""
-        said = [{"name": name, **asdict(flag)} for name, flag in sorted(flags.items())]
-        _write(self.folder / "flags.json", "flags", said, _FLAGS_VERSION)
+        write_list(self.folder / "gallery.json", "photos", done, VERSION)
 
     def build(
         self,
@@ -252,7 +231,8 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     item = task.item
     made_from = digest_of_files(looks.digest, item)
     file = gallery.recording(task.name)
-    if task.known and task.known.made_from == made_from and file.exists():
+    there = file.exists() and gallery.thumbnail(task.name).exists()
+    if task.known and task.known.made_from == made_from and there:
         return replace(task.known, photo=str(item.photo_path))
     photo, truth = item.photo(), item.truth()
     warm_up()
@@ -274,36 +254,7 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
                 "other_a_err": beside.a_err,
                 "difference": float(apart),
             }
+    write_thumbnail(gallery.thumbnail(task.name), photo, detection.skyline, truth)
     photo_file = str(item.photo_path)
     about = {"method": detection.method, "causes": causes, **against, **vars(verdict)}
-    return Entry(task.name, photo_file, made_from, **about)
-
-
-def _read(path: Path, key: str, version: int) -> list[dict[str, Any]]:
-    """What a file holds; nothing where an earlier version wrote it."""
-    if not path.exists():
-        return []
-    try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-        found = document[key]
-        if document["version"] in range(1, version):
-            return []
-        if document["version"] != version or not all(isinstance(one, dict) for one in found):
-            raise ValueError
-    except (ValueError, LookupError, TypeError) as error:
-        raise GalleryError(
-            f"{path} is damaged or of another version; move it away to start afresh."
-        ) from error
-    return list(found)
-
-
-def _made(kind: Any, path: Path, values: dict[str, Any]) -> Any:  # noqa: ANN401
-    try:
-        return kind(**values)
-    except TypeError as error:
-        raise GalleryError(f"{path} is damaged: {error}.") from error
-
-
-def _write(path: Path, key: str, values: list[dict[str, Any]], version: int) -> None:
-    text = json.dumps({"version": version, key: values}, indent=1, ensure_ascii=False)
-    write_text(path, text + "\n")
+    return Entry(task.name, photo_file, made_from, *photo.shape[:2], **about)

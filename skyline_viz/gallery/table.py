@@ -1,6 +1,8 @@
 """A gallery as a table of cards in the viewer, served on this machine alone.
 
-The only module that uses ``rerun.blueprint.table``, which Rerun calls unstable.
+The table shows what people said about photos. It is said elsewhere, on the `flag_page` or by a
+command: the viewer keeps a click on a flag to itself for a while, and Rerun's own server takes
+changes from every program of this machine.
 """
 
 from __future__ import annotations
@@ -8,21 +10,26 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pyarrow as pa
 import rerun as rr
 import rerun.blueprint as rrb
-import rerun.blueprint.table as rrt
 
 from skyline_viz.diagnosis.causes import Cause
-from skyline_viz.gallery.store import Entry, Flag, Gallery
+from skyline_viz.gallery.flags import Flag, read_flags
+from skyline_viz.gallery.store import Entry, Gallery
 from skyline_viz.system.aftermath import passing_temporaries
+from skyline_viz.system.loopback import LOOPBACK
 from skyline_viz.system.names import recording_id, shortened, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.blueprints import Contents, detection_blueprint
-from skyline_viz.viewer.process import LOOPBACK, free_port
+from skyline_viz.viewer.process import free_port
 from skyline_viz.viewer.recording import APPLICATION
+from skyline_viz.viewer.rerun_internals import card_parts
+
+if TYPE_CHECKING:
+    from rerun.blueprint.table import TableBlueprint
 
 _DATASET = "photos"
 _TABLE = "gallery"
@@ -38,39 +45,32 @@ class ServedGallery:
     gallery: Gallery
     """Its files."""
 
-    table: Any
-    """The table on the server."""
+    entries: Sequence[Entry]
+    """Its photos."""
 
     flags: dict[str, Flag]
-    """What is on disk about reviews and comments."""
+    """What the table says about reviews and comments."""
 
-    names: dict[str, str]
-    """Name of each photo in it, by its identifier."""
-
+    _photos: Any = field(repr=False)
+    _table: Any = field(repr=False)
     _client: Any = field(repr=False)  # the server forgets its tables when it is dropped
 
-    reviewed: int = 0
-    """How many of its photos are reviewed, as far as the viewer has said."""
+    def refresh(self) -> bool:
+        """Put what people said since into the table; whether there was anything.
 
-    def save_edits(self) -> bool:
-        """Write what people edited in the viewer since; return whether there was anything."""
-        rows = self.table.reader().to_arrow_table().to_pylist()
-        said = {}
-        for row in rows:
-            name, comment = self.names[row["id"]], row["comment"] or ""
-            before = self.flags.get(name, Flag()).comment
-            if comment == shown_in_viewer(before):  # nobody has edited it
-                comment = before
-            said[name] = Flag(bool(row["reviewed"]), comment)
-        self.reviewed = sum(flag.reviewed for flag in said.values())
-        merged = self.flags | {
-            name: flag for name, flag in said.items() if flag != Flag() or name in self.flags
-        }
-        if merged == self.flags:
-            return False
-        self.gallery.save_flags(merged)
-        self.flags = merged
-        return True
+        The viewer shows it when it asks again, which the arrow beside *Last updated* has it do.
+        """
+        flags = read_flags(self.gallery.folder)
+        nothing = Flag()
+        changed = [
+            one
+            for one in self.entries
+            if flags.get(one.name, nothing) != self.flags.get(one.name, nothing)
+        ]
+        if changed:
+            self._table.upsert(**_columns(changed, flags, self._photos))
+        self.flags = flags
+        return bool(changed)
 
 
 @contextmanager
@@ -84,62 +84,77 @@ def served(
         entries: Its photos, in the order in which to show them.
         truth: Whether there is a truth for any of them.
         cause: Show only those with this cause, by a filter that can be changed in the viewer.
+
+    Raises:
+        ViewerError: This version of Rerun has no cards.
     """
+    parts = card_parts()
     files = [gallery.recording(entry.name) for entry in entries]
-    flags = gallery.flags()
-    names = {recording_id(entry.name): entry.name for entry in entries}
+    flags = read_flags(gallery.folder)
     with (
         passing_temporaries() as folder,
-        rr.server.Server(host=LOOPBACK, port=free_port(), datasets={_DATASET: files}) as server,
+        parts.server.Server(host=LOOPBACK, port=free_port(), datasets={_DATASET: files}) as server,
     ):
         client = server.client()
         photos = client.get_dataset(_DATASET)
         layout = folder / "stages.rbl"
-        compared = next((entry.compared for entry in entries), "")
-        contents = Contents(
-            height=519,
-            width=1388,  # most photos are wider than high
-            truth=truth,
-            bank=False,
-            filters=entries[0].method in ("default", "paper"),
-            compared=compared,
-            diagnosed=any(entry.causes for entry in entries),
-            stacked_costs=False,
-        )
-        detection_blueprint(contents).save(APPLICATION, layout)
+        detection_blueprint(contents_of(entries, truth)).save(APPLICATION, layout)
         photos.register_blueprint(layout.as_uri())
-        table = client.create_table(_TABLE, _SCHEMA)
+        table = client.create_table(_TABLE, _schema(parts.index))
         table.append(**_columns(entries, flags, photos))
         cards = folder / "cards.rbl"
-        _cards(truth, cause, compared).save(_TABLE, cards)
+        compared = next((entry.compared for entry in entries), "")
+        _cards(parts.tables, truth, cause, compared).save(_TABLE, cards)
         table.register_blueprint(cards.as_uri())
         address = f"{server.url()}/entry/{table.id}"
-        one = ServedGallery(address, gallery, table, flags, names, client)
-        one.save_edits()  # nothing yet, but counts what is reviewed
-        try:
-            yield one
-        finally:
-            one.save_edits()
+        yield ServedGallery(address, gallery, entries, flags, photos, table, client)
 
 
-_INDEX = {rr.SORBET_IS_TABLE_INDEX: "true"}
-_SCHEMA = pa.schema(
-    [
-        pa.field("id", pa.utf8(), metadata=_INDEX),
-        pa.field("name", pa.utf8()),
-        pa.field("photo", pa.utf8()),
-        pa.field("a_err", pa.float32()),
-        pa.field("worst", pa.utf8()),
-        pa.field("difference", pa.float32()),
-        pa.field("other_a_err", pa.float32()),
-        pa.field("margin", pa.float32()),
-        pa.field("wrong", pa.utf8()),
-        pa.field("cause", pa.utf8()),
-        pa.field("causes", pa.utf8()),
-        pa.field("reviewed", pa.bool_()),
-        pa.field("comment", pa.utf8()),
-    ]
-)
+def contents_of(entries: Sequence[Entry], truth: bool) -> Contents:
+    """What the recordings of a gallery hold: one layout shows them all.
+
+    Args:
+        entries: The photos, in the order in which they are shown. The layout is made for the shape
+            of the first; where others have another size, views fit themselves to each.
+        truth: Whether there is a truth for any of them.
+    """
+    first = entries[0]
+    return Contents(
+        first.height,
+        first.width,
+        one_size=all((one.height, one.width) == (first.height, first.width) for one in entries),
+        truth=truth,
+        bank=False,
+        filters=first.method in ("default", "paper"),
+        compared=first.compared,
+        diagnosed=any(entry.causes for entry in entries),
+        stacked_costs=False,
+    )
+
+
+def _schema(index: str) -> pa.Schema:
+    """The table's columns.
+
+    Args:
+        index: Metadata key of the column that tells rows apart.
+    """
+    return pa.schema(
+        [
+            pa.field("id", pa.utf8(), metadata={index: "true"}),
+            pa.field("name", pa.utf8()),
+            pa.field("photo", pa.utf8()),
+            pa.field("a_err", pa.float32()),
+            pa.field("worst", pa.utf8()),
+            pa.field("difference", pa.float32()),
+            pa.field("other_a_err", pa.float32()),
+            pa.field("margin", pa.float32()),
+            pa.field("wrong", pa.utf8()),
+            pa.field("cause", pa.utf8()),
+            pa.field("causes", pa.utf8()),
+            pa.field("reviewed", pa.bool_()),
+            pa.field("comment", pa.utf8()),
+        ]
+    )
 
 
 def _columns(
@@ -175,7 +190,12 @@ def _rounded(value: float | None) -> float | None:
     return None if value is None else round(value, 2)
 
 
-def _cards(truth: bool, cause: Cause | None, compared: str) -> rrt.TableBlueprint:
+def _cards(
+    tables: Any,  # noqa: ANN401
+    truth: bool,
+    cause: Cause | None,
+    compared: str,
+) -> TableBlueprint:
     lines = (entities.PATH, entities.TRUTH, *([entities.ALTERNATIVE] if compared else []))
     thumbnail = rrb.Spatial2DView(
         origin="/",
@@ -183,38 +203,38 @@ def _cards(truth: bool, cause: Cause | None, compared: str) -> rrt.TableBlueprin
         name="skyline",
     )
     errors = [
-        rrt.Column("a_err", name="A_err (px)"),
-        rrt.Column("cause", name="cause"),
-        rrt.Column("worst", name="worst"),
-        rrt.Column("wrong", name="wrong"),
+        tables.Column("a_err", name="A_err (px)"),
+        tables.Column("cause", name="cause"),
+        tables.Column("worst", name="worst"),
+        tables.Column("wrong", name="wrong"),
     ]
-    against = (
-        [rrt.Column("difference", name=shown_in_viewer(f"yellow is {compared}, apart (px)"))]
-        if compared
-        else []
-    )
+    against = []
+    if compared:
+        name = shown_in_viewer(f"yellow is {compared}, apart (px)")
+        against.append(tables.Column("difference", name=name))
     if compared and truth:
-        against.append(rrt.Column("other_a_err", name="its A_err (px)"))
+        against.append(tables.Column("other_a_err", name="its A_err (px)"))
     columns = [
-        rrt.Column("photo", name="skyline", column_type=rrt.PreviewCell(thumbnail)),
+        tables.Column("photo", name="skyline", column_type=tables.PreviewCell(thumbnail)),
         *against,
         *(errors if truth else []),
-        rrt.Column("margin", name="margin"),
-        rrt.Column("reviewed", name="reviewed", column_type=rr.components.Flag, editable=True),
-        rrt.Column("comment", name="comment", editable=True),
+        tables.Column("margin", name="margin"),
+        tables.Column("reviewed", name="reviewed", column_type=rr.components.Flag),
+        tables.Column("comment", name="comment"),
     ]
-    in_table = [rrt.Column("name"), *columns]
+    in_table = [tables.Column("name"), *columns]
     if truth:
-        in_table.append(rrt.Column("causes"))  # for filters; too long for cards
-    order = rrt.SortBy("a_err", direction="descending")
+        in_table.append(tables.Column("causes"))  # for filters; too long for cards
+    order = tables.SortBy("a_err", direction="descending")
     if not truth:
-        order = rrt.SortBy("margin", direction="ascending")
+        order = tables.SortBy("margin", direction="ascending")
     if compared:
-        order = rrt.SortBy("difference", direction="descending")
-    return rrt.TableBlueprint(
-        card_layout=rrt.CardLayout(title="name", link="photo", fields=columns),
-        table_layout=rrt.TableLayout(columns=in_table),
+        order = tables.SortBy("difference", direction="descending")
+    blueprint: TableBlueprint = tables.TableBlueprint(
+        card_layout=tables.CardLayout(title="name", link="photo", fields=columns),
+        table_layout=tables.TableLayout(columns=in_table),
         default_layout="cards",
-        filters=[rrt.col("causes").str.contains(cause)] if cause else [],
+        filters=[tables.col("causes").str.contains(cause)] if cause else [],
         sort_by=order,
     )
+    return blueprint

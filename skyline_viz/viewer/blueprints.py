@@ -54,6 +54,10 @@ class Contents:
     width: int
     """Its columns."""
 
+    one_size: bool = True
+    """Whether all photos are as large as that: then views show a photo's pixels and no more. Else
+    each view fits itself to what is in it."""
+
     truth: bool = False
     """Whether there is a truth."""
 
@@ -218,8 +222,7 @@ def _diagnosis_tab(contents: Contents) -> rrb.Container:
     photo = _photo_view(
         "Yellow: the path with its cause made right. On the truth, orange: no edge; blue: starved",
         [entities.PHOTO, *lines, *marks],
-        # else frames and their words at a rim push the photo out of the view
-        rrb.VisualBounds2D(x_range=(0, contents.width), y_range=(0, contents.height)),
+        _whole_photo(contents),
     )
     report = rrb.TextDocumentView(origin=entities.DIAGNOSIS, name="Why")
     costs = _photo_view("What they pay", [entities.STACKED_COSTS])
@@ -270,7 +273,7 @@ def _methods_tab(contents: Contents) -> rrb.Container:
     photo = _photo_view(
         "What each method finds",
         [entities.PHOTO, *lines],
-        rrb.VisualBounds2D(x_range=(0, contents.width), y_range=(0, contents.height)),
+        _whole_photo(contents),
     )
     table = rrb.TextDocumentView(origin=entities.METHODS_TABLE, name="Methods")
     costs = [
@@ -337,6 +340,13 @@ def _photo_view(
         name=shown_in_viewer(title),
         background=_BLACK,
     )
+
+
+def _whole_photo(contents: Contents) -> rrb.VisualBounds2D | None:
+    """Bounds without which frames and their words at a rim push the photo out of a view."""
+    if not contents.one_size:
+        return None
+    return rrb.VisualBounds2D(x_range=(0, contents.width), y_range=(0, contents.height))
 
 
 def _with_halos(lines: Iterable[str] = _LINES) -> list[str]:

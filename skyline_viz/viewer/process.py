@@ -16,22 +16,19 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from time import monotonic, sleep
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import rerun as rr
-import rerun_cli
 from PIL import Image
-from rerun.experimental import ViewerClient
 
 from skyline_viz.files import replacing
 from skyline_viz.system.aftermath import ended, started
+from skyline_viz.system.loopback import LOOPBACK
+from skyline_viz.viewer.rerun_internals import ViewerError, program, viewer_client
 
-LOOPBACK = "127.0.0.1"
-"""The only address on which anything listens."""
-
-PROGRAM = Path(str(rerun_cli.__file__)).with_name("rerun.exe" if os.name == "nt" else "rerun")
-"""The viewer's program."""
+if TYPE_CHECKING:
+    from rerun.experimental import ViewerClient
 
 WINDOW = (1280, 800)
 """Width and height of pictures, in pixels."""
@@ -50,10 +47,6 @@ _PICTURE_SECONDS = 600.0  # that pictures may take at most, as long as something
 _BAR = 37  # rows of the window's own bar, which stays when its content is hidden
 _STEADY = 4  # pictures in a row that agree, 0.15 s apart: thumbnails come one by one
 _ERRORS = (ConnectionError, RuntimeError, OSError, ValueError)  # what a client of a viewer raises
-
-
-class ViewerError(OSError):
-    """The viewer could not be started or did not do its work; the message says why."""
 
 
 class UnsteadyError(ViewerError):
@@ -179,8 +172,9 @@ def send(sources: Sequence[Path], address: str) -> None:
     Raises:
         ViewerError: None runs there.
     """
+    client = viewer_client()
     try:
-        ViewerClient.connect(address).get_state()
+        client.connect(address).get_state()
     except _ERRORS as error:
         raise ViewerError(f"no viewer answers at {address}.") from error
     for source in sources:
@@ -302,19 +296,21 @@ def _start(arguments: Sequence[str], **streams: Any) -> subprocess.Popen[bytes]:
     common = ["--bind", LOOPBACK, "--hide-welcome-screen"]
     alone = _ALONE | {name.lower(): value for name, value in _ALONE.items()}
     environment = {"RUST_LOG": "warn", **os.environ, **alone}
+    viewer = program()
     try:
-        return started([PROGRAM, *common, *arguments], env=environment, **streams)
+        return started([viewer, *common, *arguments], env=environment, **streams)
     except OSError as error:
-        raise ViewerError(f"the viewer {PROGRAM} cannot be started: {error.strerror}.") from error
+        raise ViewerError(f"the viewer {viewer} cannot be started: {error.strerror}.") from error
 
 
 def _connected(process: subprocess.Popen[bytes], port: int, log: Any) -> ViewerClient:  # noqa: ANN401
+    kind = viewer_client()
     deadline = monotonic() + _START_SECONDS
     while monotonic() < deadline:
         if process.poll() is not None:
             break
         try:
-            client = ViewerClient.connect(f"rerun+http://{LOOPBACK}:{port}/proxy")
+            client = kind.connect(f"rerun+http://{LOOPBACK}:{port}/proxy")
             client.get_state()
         except _ERRORS:
             sleep(0.1)

@@ -22,7 +22,6 @@ import numpy as np
 import numpy.typing as npt
 import rerun as rr
 import rerun.blueprint as rrb
-import rerun_bindings
 
 from skyline_viz.arrays import U8, Bool, check_photo
 from skyline_viz.detection import Detection
@@ -41,6 +40,7 @@ from skyline_viz.viewer.column_views import TRUTH_RADIUS, log_columns, log_line
 from skyline_viz.viewer.documents import markdown_document
 from skyline_viz.viewer.report import report
 from skyline_viz.viewer.rerun_file import saved
+from skyline_viz.viewer.rerun_internals import let_go_of_orphans
 from skyline_viz.viewer.stage_maps import (
     QUANTITIES,
     log_detour,
@@ -84,7 +84,7 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
     """
     interrupted: KeyboardInterrupt | None = None
     # streams that nobody holds any more keep what was logged, 2 MB a photo, until told to let go
-    rerun_bindings.flush_and_cleanup_orphaned_recordings()
+    let_go_of_orphans()
     with replacing(path) as temporary:
         batches = rr.ChunkBatcherConfig.DEFAULT()
         batches.flush_num_bytes = _BATCH  # compress maps while the next ones are made

@@ -23,7 +23,7 @@ def _no_viewer(monkeypatch):
 
 
 def test_the_demo_is_a_gallery_the_worst_first(say, hills, tmp_path, _no_viewer):
-    status, out, err = say("demo", hills, "--out", "shown")
+    status, out, err = say("demo", hills, "--out", "shown", "--workers", "1")
     assert (status, err) == (0, "")
     assert files(tmp_path / "shown") == [
         "gallery.json",

@@ -4,29 +4,22 @@ import csv
 import json
 import re
 
-import numpy as np
 import pytest
 
-import skyline_viz as sv
 from skyline_viz.cli import main
 from skyline_viz.diagnosis.causes import CAUSES
-from skyline_viz.rendering import render
-from testing import SAMPLES
+from testing import SAMPLES, detections
 from testing.detections import flat_truth, write_dataset
 
 
 @pytest.fixture(scope="module")
 def hazy():
-    scene = render("hazy", 1)
-    return sv.Detector().detect(scene.photo), scene.truth
+    return detections.hazy()
 
 
 @pytest.fixture(scope="module")
 def flat():
-    """A photo with a level ridge in row 60, and its detection, which is right."""
-    photo = np.full((120, 300, 3), 200, np.uint8)
-    photo[60:] = 60
-    return sv.Detector().detect(photo)
+    return detections.flat()
 
 
 def test_where_all_is_right_nothing_has_to_help(flat, tmp_path, capsys):

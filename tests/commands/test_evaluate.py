@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from testing.commands import files, scene, write_scene
+from testing.commands import files, write_scenes
 
 
 def test_evaluate_prints_and_writes(say, hills, tmp_path):
@@ -46,9 +46,7 @@ def test_testing_on_the_training_photos_is_noticed(say, hills):
 
 def test_an_evaluation_lists_failures(say, tmp_path):
     root = tmp_path / "some"
-    for number in range(2):
-        write_scene(root / "images" / f"p{number}.png", number)
-        scene(number)[1].write_csv(root / "masks" / f"p{number}.csv")
+    write_scenes(root, 2)
     (root / "images" / "p0.png").write_bytes(b"no photo")
     status, _, err = say("evaluate", root, "--out", "report")
     assert status == 1

@@ -3,7 +3,7 @@
 import numpy as np
 
 import skyline_viz as sv
-from testing.commands import scene, write_scene
+from testing.commands import scene, write_scene, write_scenes
 
 
 def test_train_writes_a_bank_and_tells_about_it(say, hills, tmp_path):
@@ -48,9 +48,7 @@ def test_photos_without_truth_are_named_and_left_out(say, hills, tmp_path):
 
 def test_training_goes_on_past_a_bad_photo(say, tmp_path):
     root = tmp_path / "some"
-    for number in range(2):
-        write_scene(root / "images" / f"p{number}.png", number)
-        scene(number)[1].write_csv(root / "masks" / f"p{number}.csv")
+    write_scenes(root, 2)
     (root / "images" / "p0.png").write_bytes(b"no photo")
     status, out, err = say("train", root, "--out", "b.npz")
     assert status == 1

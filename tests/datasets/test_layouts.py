@@ -336,3 +336,18 @@ def test_a_closed_folder_inside_does_not_stop_the_rest(tmp_path, monkeypatch):
 
 
 # How a truth is read
+
+
+def test_one_photo_with_a_published_name_makes_no_published_data_set(tmp_path):
+    for name in ("marsim0001.png", "eiger.png", "jungfrau.png"):
+        put(tmp_path / "images" / name)
+    assert sv.open_dataset(tmp_path).layout == "plain"
+
+
+def test_photos_in_hidden_folders_are_not_mentioned(tmp_path):
+    put(tmp_path / "a.png")
+    put(tmp_path / ".thumbnails" / "a.png")
+    assert sv.open_dataset(tmp_path).left_out == ()
+    put(tmp_path / "small" / "a.png")
+    (said,) = sv.open_dataset(tmp_path).left_out
+    assert "1 in small" in said

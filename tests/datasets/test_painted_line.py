@@ -12,13 +12,7 @@ import skyline_viz as sv
 from skyline_viz.datasets.truths import read_truth, truth_with_notes
 from skyline_viz.skyline import Skyline, SkylineError
 from testing import label_files as made
-from testing.datasets import (
-    PHOTO,
-    ROWS,
-    WIDTH,
-    only,
-    put,
-)
+from testing.datasets import PHOTO, ROWS, WIDTH, only, put
 from testing.examples import examples
 from testing.label_files import said_about
 

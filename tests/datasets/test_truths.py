@@ -13,16 +13,7 @@ import skyline_viz as sv
 from skyline_viz.datasets.truths import read_truth
 from skyline_viz.skyline import Skyline, SkylineError
 from testing import label_files as made
-from testing.datasets import (
-    HEIGHT,
-    MASK,
-    NOISE,
-    ROWS,
-    SKYLINE,
-    WIDTH,
-    only,
-    put,
-)
+from testing.datasets import HEIGHT, MASK, NOISE, ROWS, SKYLINE, WIDTH, only, put
 from testing.examples import examples
 from testing.label_files import said_about
 

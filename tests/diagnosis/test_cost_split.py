@@ -3,15 +3,7 @@
 import numpy as np
 import pytest
 
-import skyline_viz as sv
 from skyline_viz.diagnosis.cost_split import split_cost
-from skyline_viz.rendering import render
-
-
-@pytest.fixture(scope="module")
-def hazy():
-    scene = render("hazy", 1)
-    return sv.Detector().detect(scene.photo), scene.truth
 
 
 def test_the_parts_of_a_cost_add_up_to_the_whole(hazy):

@@ -3,28 +3,12 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 import skyline_viz as sv
 from skyline_viz.diagnosis.counterfactual import Case
 from skyline_viz.diagnosis.diagnosing import diagnose
-from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
 from testing.detections import flat_truth
-
-
-@pytest.fixture(scope="module")
-def hazy():
-    scene = render("hazy", 1)
-    return sv.Detector().detect(scene.photo), scene.truth
-
-
-@pytest.fixture(scope="module")
-def flat():
-    """A photo with a level ridge in row 60, and its detection, which is right."""
-    photo = np.full((120, 300, 3), 200, np.uint8)
-    photo[60:] = 60
-    return sv.Detector().detect(photo)
 
 
 def test_columns_that_were_never_wrong_are_not_repaired(flat):

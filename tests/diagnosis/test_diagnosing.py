@@ -19,12 +19,6 @@ from testing.injected import MAKERS, cases, main_cause
 EACH = 6
 
 
-@pytest.fixture(scope="module")
-def hazy():
-    scene = render("hazy", 1)
-    return sv.Detector().detect(scene.photo), scene.truth
-
-
 @pytest.mark.parametrize("cause", MAKERS)
 def test_a_failure_that_was_made_on_purpose_is_told_from_others(cause):
     said = Counter(main_cause(one).cause for one in cases(cause, EACH))
@@ -47,14 +41,6 @@ def test_a_cause_stands_on_a_counterfactual(cause):
     assert trial == segment.proof
     assert trial.columns > 0
     assert segment.evidence.endswith(".")
-
-
-@pytest.fixture(scope="module")
-def flat():
-    """A photo with a level ridge in row 60, and its detection, which is right."""
-    photo = np.full((120, 300, 3), 200, np.uint8)
-    photo[60:] = 60
-    return sv.Detector().detect(photo)
 
 
 def test_as_many_lines_are_taken_away_as_are_cheaper():

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.config import FILTER_SIZES, DetectorConfig, TrainingConfig
+from skyline_viz.config import FILTER_SIZES, DetectorConfig
 from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
-from skyline_viz.training import train
-from testing.recordings import scene
+from testing.recordings import banks_of_sizes, scene
 
 SETTINGS = ("canny_thresholds", "v", "delta", "link_weight")
 CONFIGS = {
@@ -29,10 +28,7 @@ def found():
 
 @pytest.fixture(scope="module")
 def banks():
-    return [
-        train([scene(seed=1), scene(seed=2)], 0, TrainingConfig(filter_size=size), "two scenes")
-        for size in FILTER_SIZES
-    ]
+    return banks_of_sizes()
 
 
 @pytest.mark.parametrize("config", CONFIGS.values(), ids=CONFIGS)

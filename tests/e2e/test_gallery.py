@@ -1,10 +1,11 @@
-"""A gallery in the real viewer: cards, a review and a comment that reach the disk, the stages."""
+"""A gallery in the real viewer: cards, what people said about them, the stages."""
 
 import json
 import os
 import signal
 import subprocess
 import sys
+from urllib.request import Request, urlopen
 
 import numpy as np
 import pytest
@@ -15,16 +16,16 @@ from skyline_viz.command_line.inputs import collect
 from skyline_viz.command_line.settings import make_detector
 from skyline_viz.commands.gallery import PICTURE, build
 from skyline_viz.config import DetectorConfig
-from skyline_viz.gallery.hand import ended_edits
-from skyline_viz.gallery.store import Flag, Gallery
+from skyline_viz.gallery.flags import Change, change_flags, read_flags
+from skyline_viz.gallery.store import Gallery
 from skyline_viz.gallery.table import served
 from skyline_viz.viewer.process import (
-    PROGRAM,
     headless_viewer,
     settled_picture,
     show_tab,
     tab_names,
 )
+from skyline_viz.viewer.rerun_internals import program
 from testing import SAMPLES, until
 from testing.robot import Robot, listening, viewer_port
 
@@ -42,88 +43,89 @@ def photos(tmp_path_factory):
     return folder
 
 
-def click_flag(robot):
-    flag = robot.widgets(role="CheckBox", label_contains="Flag")[-1]
-    box = json.loads(robot.do("get_widget", id=flag["id"]))["node"]["bounds"]
-    robot.do("click", pos=[box["x"] + box["w"] / 2, box["y"] + box["h"] / 2])
-
-
-def test_reviewing_commenting_and_looking_inside(photos, tmp_path):
+@pytest.fixture(scope="module")
+def built(photos, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("gallery")
     detector = make_detector(None, DetectorConfig())
-    entries, failures = build(tmp_path, collect([photos]), detector, workers=1)
+    entries, failures = build(folder, collect([photos]), detector, workers=1)
     assert failures == []
+    return Gallery(folder), entries
+
+
+def test_cards_tell_what_people_said_and_lead_inside(built):
+    files, entries = built
     assert [entry.name for entry in entries] == NAMES
     assert [entry.cause for entry in entries] == ["cheaper path", "too steep", "missed edge"]
     for entry in entries:
-        file = Gallery(tmp_path).recording(entry.name)
-        subprocess.run([PROGRAM, "rrd", "verify", file], check=True, capture_output=True)
+        words = [program(), "rrd", "verify", files.recording(entry.name)]
+        subprocess.run(words, check=True, capture_output=True)
+    change_flags(files.folder, {"hazy-1": Change(True, "faint ridge")})
     with (
-        served(Gallery(tmp_path), entries, truth=True) as gallery,
+        served(files, entries, truth=True) as gallery,
         headless_viewer([gallery.address], (1280, 1000)) as viewer,
     ):
         cards = np.asarray(settled_picture(viewer))
         assert cards[200:900].std() > 20
         assert {address for _, address, _ in listening()} == {"127.0.0.1"}
 
-        def saved():
+        def says(robot, text):
             viewer.take_screenshot()  # a viewer without a screen works only when it draws
-            return gallery.save_edits()
+            return robot.says(text)
 
-        port = viewer_port()
-        with Robot(port) as robot:
-            until(lambda: len(robot.says("hazy-1")) > 0)
+        with Robot(viewer_port()) as robot:
+            until(lambda: says(robot, "hazy-1"))
             assert [one for one in NAMES if robot.says(one)] == NAMES
-            for change in (1, -1, 1):  # set it, take it back, set it
-                with ended_edits(port, lambda: gallery.reviewed):
-                    click_flag(robot)
-                    until(saved)
-                assert gallery.reviewed == max(change, 0)
-            (name,) = Gallery(tmp_path).flags()
-            assert Gallery(tmp_path).flags() == {name: Flag(reviewed=True)}
-            field = robot.widgets(role="TextInput", label_contains="comment")[0]
-            robot.do("click", id=field["id"])
-            robot.do("type_text", id=field["id"], text="faint ridge")
-            robot.do("press_key", key="Enter")
-            until(saved)
-            said = Gallery(tmp_path).flags()
-            assert [one.comment for one in said.values() if one.comment] == ["faint ridge"]
+            assert robot.says("faint ridge")
+            assert robot.says("1 marked")
+            flags = robot.widgets(role="CheckBox", label_contains="Flag")
+            assert len(flags) >= 2
+            assert all(one.get("disabled") for one in flags)  # they are set elsewhere
+            assert not robot.widgets(role="TextInput", label_contains="comment")
+            change_flags(files.folder, {"hazy-1": Change(comment="said meanwhile")})
+            assert gallery.refresh()
+            robot.do("click", role="Button", label_contains="Refresh table")
+            until(lambda: says(robot, "said meanwhile"))
             robot.do("click", content_contains="hazy-1", role="Label")
             until(lambda: viewer.get_state().views)
-            until(lambda: robot.says("A_err 132.88") or robot.says("132.88 px"))
+            until(lambda: says(robot, "A_err 132.88") or says(robot, "132.88 px"))
             assert tab_names(viewer)[-1] == "Diagnosis"
             show_tab(viewer, "Diagnosis")
-            until(lambda: robot.says("cheaper path"))
-    again = Gallery(tmp_path).flags()
-    assert any(one.reviewed for one in again.values())
-    assert any(one.comment == "faint ridge" for one in again.values())
+            until(lambda: says(robot, "cheaper path"))
 
 
-def test_one_cause_and_a_review_while_another_is_hidden(photos, tmp_path):
-    detector = make_detector(None, DetectorConfig())
-    entries, _ = build(tmp_path, collect([photos]), detector, workers=1)
-    files = Gallery(tmp_path)
-    files.save_flags({"hazy-1": Flag(reviewed=True)})
+def test_the_table_follows_what_is_said_while_it_is_served(built):
+    files, entries = built
+    (files.folder / "flags.json").unlink(missing_ok=True)
+
+    def said(gallery):
+        rows = gallery._table.reader().to_arrow_table().to_pylist()
+        assert len(rows) == len(NAMES)
+        return {one["name"]: (one["reviewed"], one["comment"]) for one in rows}
+
+    with served(files, entries, truth=True) as gallery:
+        assert said(gallery) == dict.fromkeys(NAMES, (False, ""))
+        assert not gallery.refresh()
+        change_flags(files.folder, {"rover-2": Change(True, "later"), "gone": Change(True)})
+        assert gallery.refresh()
+        expected = dict.fromkeys(NAMES, (False, "")) | {"rover-2": (True, "later")}
+        assert said(gallery) == expected
+        assert not gallery.refresh()
+        change_flags(files.folder, {"rover-2": Change(False, "")})
+        assert gallery.refresh()
+        assert said(gallery) == dict.fromkeys(NAMES, (False, ""))
+
+
+def test_one_cause_is_a_filter_of_the_viewer(built):
+    files, entries = built
     with (
         served(files, entries, truth=True, cause="too steep") as gallery,
         headless_viewer([gallery.address], (1280, 1000)) as viewer,
     ):
-        port = viewer_port()
-
-        def saved():
-            viewer.take_screenshot()
-            return gallery.save_edits()
-
-        with Robot(port) as robot:
+        settled_picture(viewer)
+        with Robot(viewer_port()) as robot:
             until(lambda: robot.says("spires-5") and robot.says("rover-2"))
             assert robot.says("too steep")
             assert not robot.says("hazy-1")
-            settled_picture(viewer)
-            with ended_edits(port, lambda: gallery.reviewed):
-                click_flag(robot)
-                until(saved)
-    reviewed = [name for name, flag in files.flags().items() if flag.reviewed]
-    assert len(reviewed) == 2
-    assert "hazy-1" in reviewed
 
 
 def test_a_picture_of_the_cards(photos, tmp_path, capsys):
@@ -136,12 +138,19 @@ def test_a_picture_of_the_cards(photos, tmp_path, capsys):
 
 
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
-def test_a_served_gallery_ends_politely(photos, tmp_path, ending):
+def test_a_served_gallery_has_a_page_for_flags_and_ends_politely(photos, tmp_path, ending):
     words = [sys.executable, "-m", "skyline_viz", "gallery", photos, "--out", tmp_path, "--serve"]
     process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=os.environ)
     said = iter(process.stdout.readline, "")
     assert next(line for line in said if "rerun+http://127.0.0.1" in line)
+    page = next(line for line in said if "Review and comment" in line).split()[-1]
+    assert page.startswith("http://127.0.0.1:")
+    how = {"Content-Type": "application/json"}
+    request = Request(f"{page}flags/hazy-1", b'{"reviewed": true}', how, method="PUT")
+    with urlopen(request, timeout=10) as answer:
+        assert json.load(answer) == {"reviewed": True, "comment": ""}
     process.send_signal(ending)
     assert process.wait(30) == 0
     process.stdout.close()
+    assert [*read_flags(tmp_path)] == ["hazy-1"]
     assert len(json.loads((tmp_path / "gallery.json").read_text())["photos"]) == 3

@@ -13,7 +13,7 @@ from annotate.engine.live_wire import LiveWire
 from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline
-from testing.browser import Page, chromium
+from testing.browser import Page
 from testing.labelling import DETECTOR, served, write_hills
 
 HEIGHT, WIDTH = 240, 400
@@ -32,12 +32,6 @@ def peak(faint=True):
     photo[rows >= np.floor(ridge)] = 60
     photo += random.normal(0, 2, photo.shape)
     return photo.clip(0, 255).astype(np.uint8), Skyline(rows=truth)
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as browser:
-        yield browser
 
 
 @pytest.fixture

@@ -4,16 +4,10 @@ import re
 
 import pytest
 
-from testing.browser import Page, chromium
+from testing.browser import Page
 from testing.labelling import asked, served, write_hills
 
 SIZE = {"height": 240, "width": 400}
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as browser:
-        yield browser
 
 
 @pytest.fixture

@@ -6,17 +6,11 @@ import pytest
 
 from benchmarks.reliability.page import worked
 from skyline_viz.photo import write_photo
-from testing.browser import Page, chromium
+from testing.browser import Page
 from testing.labelling import hills, served, write_hills
 from testing.restarts import Restarted, kept_anchors
 
 SIZE = {"height": 240, "width": 400}
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with chromium() as browser:
-        yield browser
 
 
 @pytest.fixture

@@ -11,13 +11,12 @@ from skyline_viz.cli import main
 from skyline_viz.tensor import tensor_map
 from skyline_viz.viewer.blueprints import TABS
 from skyline_viz.viewer.process import (
-    PROGRAM,
-    ViewerError,
     headless_viewer,
     settled_picture,
     show_tab,
     tab_names,
 )
+from skyline_viz.viewer.rerun_internals import ViewerError, program
 from testing import SAMPLES, until
 from testing.robot import Robot, listening, viewer_port
 
@@ -40,7 +39,7 @@ def viewer(recording):
 
 
 def test_the_recording_is_whole(recording):
-    subprocess.run([PROGRAM, "rrd", "verify", recording], check=True, capture_output=True)
+    subprocess.run([program(), "rrd", "verify", recording], check=True, capture_output=True)
 
 
 def test_it_has_all_tabs(viewer):

@@ -8,9 +8,10 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.command_line.inputs import collect
-from skyline_viz.commands.gallery import list_flags
 from skyline_viz.datasets.layouts import DatasetItem
-from skyline_viz.gallery.store import VERSION, Entry, Flag, Gallery, GalleryError, Shot, by_need
+from skyline_viz.gallery.documents import GalleryError
+from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
+from skyline_viz.gallery.store import VERSION, Entry, Gallery, Shot, by_need
 from skyline_viz.running.batch import Failure
 from skyline_viz.viewer import entities
 from testing.recordings import Read, verify
@@ -56,6 +57,7 @@ def test_a_gallery_holds_a_whole_recording_and_an_entry_a_photo(photos, tmp_path
     assert [one.name for one in by_need(outcomes)] == ["p1", "p2", "p0"]
     assert [one.a_err for one in by_need(outcomes)] == pytest.approx([9, 2, 0])
     assert by_need(outcomes)[0].wrong == "0 to 69"
+    assert {(one.height, one.width) for one in outcomes} == {(60, 70)}
 
 
 def test_what_went_wrong_is_diagnosed(photos, tmp_path):
@@ -84,7 +86,7 @@ def test_what_went_wrong_is_diagnosed(photos, tmp_path):
 def test_an_older_gallery_is_done_again_and_keeps_its_reviews(photos, tmp_path):
     gallery = Gallery(tmp_path / "g")
     first, _ = build(gallery, photos)
-    gallery.save_flags({"p0": Flag(reviewed=True, comment="fine")})
+    change_flags(gallery.folder, {"p0": Change(reviewed=True, comment="fine")})
     index = gallery.folder / "gallery.json"
     document = json.loads(index.read_text())
     for one in document["photos"]:
@@ -94,7 +96,7 @@ def test_an_older_gallery_is_done_again_and_keeps_its_reviews(photos, tmp_path):
     again, written = build(gallery, photos)
     assert written == ["p0", "p1", "p2"]
     assert again == first
-    assert gallery.flags() == {"p0": Flag(reviewed=True, comment="fine")}
+    assert read_flags(gallery.folder) == {"p0": Flag(reviewed=True, comment="fine")}
 
 
 def test_nothing_is_done_twice(photos, tmp_path):
@@ -156,11 +158,13 @@ def test_what_changed_is_done_again(photos, tmp_path, change, expected):
     assert written == expected
 
 
-def test_a_lost_recording_is_made_again(photos, tmp_path):
+@pytest.mark.parametrize("file", [Gallery.recording, Gallery.thumbnail])
+def test_what_is_lost_of_a_photo_is_made_again(photos, tmp_path, file):
     gallery = Gallery(tmp_path / "g")
     build(gallery, photos)
-    gallery.recording("p2").unlink()
+    file(gallery, "p2").unlink()
     assert build(gallery, photos)[1] == ["p2"]
+    assert file(gallery, "p2").exists()
 
 
 def test_a_run_that_is_cut_short_goes_on_where_it_stopped(photos, tmp_path):
@@ -185,28 +189,22 @@ def test_a_bad_photo_does_not_stop_the_others(photos, tmp_path):
 def test_photos_that_are_gone_leave_the_gallery_but_not_the_reviews(photos, tmp_path):
     gallery = Gallery(tmp_path / "g")
     build(gallery, photos)
-    gallery.save_flags({"p0": Flag(reviewed=True, comment="fine")})
+    change_flags(gallery.folder, {"p0": Change(reviewed=True, comment="fine")})
     (photos / "images" / "p0.png").unlink()
     (photos / "masks" / "p0.csv").unlink()
     build(gallery, photos)
     assert list(gallery.entries()) == ["p1", "p2"]
-    assert gallery.flags() == {"p0": Flag(reviewed=True, comment="fine")}
+    assert read_flags(gallery.folder) == {"p0": Flag(reviewed=True, comment="fine")}
 
 
 def test_without_a_truth_the_least_sure_come_first():
     entries = [
-        Entry("a", "", "", margin=3.0, unsure_column=0),
-        Entry("b", "", "", margin=0.5, unsure_column=0),
-        Entry("c", "", "", margin=9.0, unsure_column=0, a_err=0.1),
-        Entry("d", "", "", margin=9.0, unsure_column=0, a_err=7.0),
+        Entry("a", "", "", 9, 9, margin=3.0, unsure_column=0),
+        Entry("b", "", "", 9, 9, margin=0.5, unsure_column=0),
+        Entry("c", "", "", 9, 9, margin=9.0, unsure_column=0, a_err=0.1),
+        Entry("d", "", "", 9, 9, margin=9.0, unsure_column=0, a_err=7.0),
     ]
     assert [one.name for one in by_need(entries)] == ["d", "c", "b", "a"]
-
-
-def test_flags_are_listed_a_line_a_photo(tmp_path, capsys):
-    Gallery(tmp_path).save_flags({"b": Flag(True, "two\nlines"), "a": Flag(False, "ä ridge")})
-    assert list_flags(tmp_path) == 0
-    assert capsys.readouterr().out == "a\t0\tä ridge\nb\t1\ttwo lines\n"
 
 
 @pytest.mark.parametrize("content", ["", "{}", '{"version": 99, "photos": []}', '{"version": 1}'])

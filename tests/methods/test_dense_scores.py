@@ -8,7 +8,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from skyline_viz.datasets.layouts import open_dataset
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.edges import find_edges, to_grey
 from skyline_viz.evaluation.metrics import a_err
@@ -16,25 +15,13 @@ from skyline_viz.method import Learner, MethodError
 from skyline_viz.methods.dense_scores import SvmScores
 from skyline_viz.methods.gradient import gradient_cost
 from skyline_viz.methods.names import MethodName
-from skyline_viz.methods.score_images import (
-    BAND,
-    LEAST_DEVIATION,
-    patches,
-)
+from skyline_viz.methods.score_images import BAND, LEAST_DEVIATION, patches
 from skyline_viz.methods.stable_edges import stable_edges
-from skyline_viz.rendering import render, write_scenes
+from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
 
 NAMES = [name for name in MethodName.__args__ if name.startswith("svm-")]
 SCENE = render("clear", 7, 150, 90)
-
-
-@pytest.fixture(scope="module")
-def items(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("scenes")
-    scenes = [render(kind, seed, 160, 96) for kind in ("clear", "hazy") for seed in (1, 2)]
-    list(write_scenes(scenes, folder))
-    return open_dataset(folder).items
 
 
 @pytest.fixture(scope="module")

@@ -2,8 +2,7 @@
 
 import pickle
 import sys
-from dataclasses import dataclass, replace
-from functools import cache
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,48 +12,12 @@ from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.method import Learner, MethodError
 from skyline_viz.methods.parsing import Fcn8s, Fcn16s, Fcn32s, SegNet
 from skyline_viz.methods.sky_boundary import MAP
-from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
-from testing.deep import needs_deep
+from testing.deep import Rendered, needs_deep, rendered
 
 METHODS = (Fcn8s, Fcn16s, Fcn32s, SegNet)
 SMALL = {"width": 1 / 8, "epochs": 32, "columns": 64}
 COARSE = {"width": 1 / 16, "epochs": 16, "columns": 96}  # 64 columns are two cells of FCN-32s
-
-
-@dataclass(frozen=True, eq=False)
-class Rendered:
-    """A photo of a data set that was never on a disk."""
-
-    scene: object
-    hidden: tuple = (0, 0)
-
-    def photo(self):
-        return self.scene.photo
-
-    def truth(self):
-        visible = np.ones(self.scene.truth.width, bool)
-        visible[slice(*self.hidden)] = False
-        return Skyline(self.scene.truth.rows, visible)
-
-
-@cache
-def scene(seed):
-    return render("clear", seed, 160, 120)
-
-
-def rendered(seeds):
-    return [Rendered(scene(seed)) for seed in seeds]
-
-
-@pytest.fixture
-def one_thread():
-    import torch  # noqa: PLC0415
-
-    threads = torch.get_num_threads()
-    torch.set_num_threads(1)
-    yield torch
-    torch.set_num_threads(threads)
 
 
 @needs_deep

@@ -1,51 +1,13 @@
 """The networks of scene parsing, layer by layer."""
 
-from dataclasses import dataclass, replace
-from functools import cache
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from skyline_viz.method import MethodError
 from skyline_viz.methods.parsing import Fcn8s
-from skyline_viz.rendering import render
-from skyline_viz.skyline import Skyline
-from testing.deep import needs_deep
-
-
-@dataclass(frozen=True, eq=False)
-class Rendered:
-    """A photo of a data set that was never on a disk."""
-
-    scene: object
-    hidden: tuple = (0, 0)
-
-    def photo(self):
-        return self.scene.photo
-
-    def truth(self):
-        visible = np.ones(self.scene.truth.width, bool)
-        visible[slice(*self.hidden)] = False
-        return Skyline(self.scene.truth.rows, visible)
-
-
-@cache
-def scene(seed):
-    return render("clear", seed, 160, 120)
-
-
-def rendered(seeds):
-    return [Rendered(scene(seed)) for seed in seeds]
-
-
-@pytest.fixture
-def one_thread():
-    import torch  # noqa: PLC0415
-
-    threads = torch.get_num_threads()
-    torch.set_num_threads(1)
-    yield torch
-    torch.set_num_threads(threads)
+from testing.deep import needs_deep, rendered
 
 
 @needs_deep

@@ -233,6 +233,7 @@ def test_options_that_would_be_ignored_are_refused(folder, tmp_path, capsys):
 
 
 def test_a_method_is_not_tested_on_what_it_learned_from_without_a_word(folder, tmp_path, capsys):
+    pytest.importorskip("sklearn", reason="not run, the extra 'methods' is not installed")
     file = str(tmp_path / "svm.npz")
     assert main(["train", str(folder), "--method", "svm-dcsi", "--out", file]) == 0
     capsys.readouterr()

@@ -6,27 +6,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from skyline_viz.datasets.layouts import open_dataset
 from skyline_viz.edges import find_edges
 from skyline_viz.methods.dense_scores import SvmScores, normalised
-from skyline_viz.methods.score_images import (
-    BAND,
-    best_of_columns,
-    draw_samples,
-    patches,
-)
-from skyline_viz.rendering import render, write_scenes
+from skyline_viz.methods.score_images import BAND, best_of_columns, draw_samples, patches
+from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
 
 SCENE = render("clear", 7, 150, 90)
-
-
-@pytest.fixture(scope="module")
-def items(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("scenes")
-    scenes = [render(kind, seed, 160, 96) for kind in ("clear", "hazy") for seed in (1, 2)]
-    list(write_scenes(scenes, folder))
-    return open_dataset(folder).items
 
 
 @pytest.fixture(scope="module")

@@ -85,6 +85,15 @@ test("what was done since to the photo that was left is not taken back", async (
   assert.equal(actions.undoes, "");
 });
 
+test("a status is not taken back where another tab has changed the photo since", async () => {
+  await actions.finish("accepted");
+  server.change(1, { kind: "anchor", column: 0, row: 1 });
+  actions.undo();
+  await quiet();
+  assert.deepEqual([status(1), server.documents.get(1).rows], ["in progress", [1, 5, 5]]);
+  assert.equal(labelling.queue.lost.length, 1);
+});
+
 test("a tag behind a status leaves its Undo in place", async () => {
   server.held = [];
   const done = actions.finish("accepted");

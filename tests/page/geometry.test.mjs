@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { chance } from "./model.mjs";
-import { alongOldLine, columnAt, drawn, nearest, nextUncertain, thinned, uncertainty } from "../../annotate/static/geometry.js";
+import { alongOldLine, brushed, columnAt, drawn, nearest, nextUncertain, thinned, uncertainty } from "../../annotate/static/geometry.js";
 
 const line = (length) => Array.from({ length }, (_, at) => [at, at]);
 
@@ -15,6 +15,13 @@ test("a long stroke keeps its ends and at most some 2,000 points, a short one al
     assert.ok(kept.length <= 2001, `${length} points leave ${kept.length}`);
     assert.deepEqual([kept[0], kept.at(-1)], [[0, 0], [length - 1, length - 1]]);
   }
+});
+
+test("the brush goes through the middle of pixels, and a dot has a length", () => {
+  assert.deepEqual(brushed([[1, 2], [3, 4]]), [[1.5, 2.5], [3.5, 4.5]]);
+  const [from, to] = brushed([[1, 2]]);
+  assert.deepEqual(from, [1.5, 2.5]);
+  assert.notDeepEqual(to, from);
 });
 
 test("a drawn stroke has a row in each of its columns, between those of its points", () => {

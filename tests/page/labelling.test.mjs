@@ -87,6 +87,18 @@ test("a part whose operation is refused is taken away again, and why is said", a
   assert.deepEqual(said, ["hill-1.png: the anchor at column 1, row 9 is not kept: no line is possible."]);
 });
 
+test("with two parts on their way, a refusal of the first one gives back the line that the server has", async () => {
+  const labelling = await opened();
+  const shown = [];
+  labelling.on("document", () => shown.push(String(labelling.document.rows)));
+  server.refusals = [[422, { detail: "no line is possible." }]];
+  labelling.apply({ kind: "anchor", column: 0, row: 8 }, { first: 0, rows: [8] });
+  labelling.apply({ kind: "anchor", column: 2, row: 7 }, { first: 2, rows: [7] });
+  await labelling.queue.settled();
+  assert.deepEqual(shown.slice(0, 3), ["8,5,5", "8,5,7", "5,5,5"]);
+  assert.equal(shown.at(-1), "5,5,7");
+});
+
 test("a change in another tab is shown, said, and built upon", async () => {
   const labelling = await opened();
   const said = [];

@@ -48,6 +48,12 @@ test("an undo of something that is not sent is not sent either, and one of what 
   assert.deepEqual(senseless([first], () => false, true), [first]); // it would take back what another tab did
 });
 
+test("Redo does nothing once something else was done", () => {
+  const [undo, anchor, redo] = [item(null, "undo"), item({ kind: "anchor" }), item(null, "redo")];
+  assert.deepEqual(senseless([undo, redo], () => false, false), []);
+  assert.deepEqual(senseless([undo, anchor, redo], () => false, false), [redo]);
+});
+
 test("what cannot be undone is left out of the reckoning", () => {
   const tag = item({ kind: "tag" });
   const [anchor, undo] = [item({ kind: "anchor" }), item(null, "undo")];

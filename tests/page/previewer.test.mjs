@@ -72,6 +72,14 @@ test("an answer about another line, or another photo, shows nothing", async () =
   assert.equal(asked.length, 2);
 });
 
+test("what was wanted of one photo is not asked of the next one", async () => {
+  previewer.ask(1, 9);
+  previewer.ask(2, 9);
+  labelling.show(photo({ id: 2 }), true);
+  await reply(0, PART);
+  assert.equal(asked.length, 1);
+});
+
 test("the part of an anchor that is dragged is no part of a new one", async () => {
   previewer.ask(5, 6, 2);
   await reply(0, PART);

@@ -54,6 +54,14 @@ export class Server {
     return { ...structuredClone(known), kept: known.revision };
   }
 
+  /** Why a change is refused; undefined where it is not. */
+  #refusal(id, { revision, operation }) {
+    if (operation?.kind === "open") return undefined;
+    const now = this.documents.get(id).revision;
+    const stale = revision !== -1 && revision !== now;
+    return this.refusals.shift() ?? (stale ? [409, { detail: "the photo was changed.", revision: now }] : undefined);
+  }
+
   #respond(path, body) {
     if (path === "api/legend") return [200, LEGEND];
     if (path === "api/photos") return [200, { folder: "alps", annotator: "ann", number: 2, photos: this.list.map((one) => ({ ...one })), progress: {} }];
@@ -61,7 +69,6 @@ export class Server {
     if (path.endsWith("/margins")) return [200, { revision: 0, margins: [1, 2, 3], uncertain: [0] }];
     if (!this.documents.has(id)) return [410, { detail: `hill-${id}.png has vanished.` }];
     if (!body) return [200, structuredClone(this.documents.get(id))];
-    const refusal = body.operation?.kind === "open" ? null : this.refusals.shift();
-    return refusal ?? [200, this.change(id, body.operation)];
+    return this.#refusal(id, body) ?? [200, this.change(id, body.operation)];
   }
 }

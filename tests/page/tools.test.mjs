@@ -86,6 +86,11 @@ test("the brush paints a stroke as wide as it looks, and erases with Alt at its 
   assert.deepEqual(done[2].points, [[4, 4]]);
 });
 
+test("a long stroke is sent with fewer points", () => {
+  use(makeTools(bench).forbid, ...Array.from({ length: 6000 }, (_, column) => at(column, 5)));
+  assert.ok(done[0].points.length <= 2001);
+});
+
 test("the brush has a width at every zoom that the server takes", () => {
   assert.deepEqual([32, 2, 0.5, 1e-6].map((scale) => brushRadius(scale)), [1, 6, 24, 1000]);
   assert.equal(brushRadius(32, 2), 2);

@@ -46,6 +46,9 @@ test("a photo that was shown whole is so in a window of another size, and one th
   view.zoom(4);
   view.resize(800, 400);
   assert.equal(view.scale, 1);
+  view.zoom(0.01); // all of it is seen again
+  view.resize(400, 400);
+  assert.equal(view.scale, 0.25);
 });
 
 test("wherever the view is, part of the photo is seen, and pixels come back from the screen", () => {

@@ -5,10 +5,7 @@ import os
 import numpy as np
 import pytest
 
-from skyline_viz.photo import (
-    find_photos,
-    write_photo,
-)
+from skyline_viz.photo import find_photos, write_photo
 from skyline_viz.picture_files.listing import find_unread
 
 

@@ -4,10 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from skyline_viz.photo import (
-    photo_size,
-    read_photo,
-)
+from skyline_viz.photo import photo_size, read_photo
 from skyline_viz.picture_files.orientation import upright, upright_image
 from testing.pictures import NOISE, PHOTO, STORED, close, save
 

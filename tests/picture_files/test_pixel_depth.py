@@ -60,6 +60,12 @@ def test_white_holds_every_sample_and_a_guess_is_noted(brightest, said):
     assert (note is None) == (white in (said, 65535))
 
 
+def test_the_brightest_sample_may_be_the_white_that_the_file_names():
+    samples = np.array([0, 1000], np.uint16)
+    assert white_of(samples, said=1000) == (1000, None)
+    assert white_of(samples, said=999)[0] == 1023  # which cannot be
+
+
 def test_a_dark_photo_of_16_bits_that_says_so_stays_dark(tmp_path):
     path = tmp_path / "a.png"
     bits = photo_files.chunk(b"sBIT", bytes([16]))

@@ -7,10 +7,7 @@ import warnings
 
 from PIL import Image
 
-from skyline_viz.photo import (
-    PhotoError,
-    read_photo,
-)
+from skyline_viz.photo import PhotoError, read_photo
 from testing import photo_files
 from testing.pictures import NOISE, refusal, save
 

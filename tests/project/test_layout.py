@@ -10,10 +10,12 @@ from testing import ROOT
 
 PARTS = ("skyline_viz", "annotate", "tests", "testing", "benchmarks", "tools")
 MOST_LINES = 400
-MOST_MODULES = 22
+MOST_MODULES = 24
 
 WITHOUT = {
     "skyline_viz/_version.py": "the version is tested with the package",
+    "skyline_viz/command_line/methods.py": "tested by the commands that take methods",
+    "skyline_viz/viewer/stage_maps.py": "tested with the recording",
 }
 """Modules that have no test file of their own, and why."""
 
@@ -56,8 +58,10 @@ def test_every_module_has_a_test_file():
     assert missing == []
 
 
-def test_exceptions_are_of_modules_that_are_there():
-    assert [name for name in WITHOUT if not (ROOT / name).is_file()] == []
+def test_exceptions_are_of_modules_that_have_no_test_file():
+    for name in WITHOUT:
+        assert (ROOT / name).is_file(), f"{name} is not there"
+        assert not (ROOT / namesake(Path(name))).is_file(), f"{name} has a test file now"
 
 
 @pytest.mark.parametrize("path", modules("tests", "testing"), ids=str)

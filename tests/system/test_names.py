@@ -6,7 +6,6 @@ import unicodedata
 from pathlib import Path
 
 import pytest
-import rerun_cli
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
@@ -14,6 +13,7 @@ from PIL import Image
 from skyline_viz.cli import main
 from skyline_viz.datasets.layouts import open_dataset
 from skyline_viz.system import names
+from skyline_viz.viewer.rerun_internals import program
 from testing import ROOT, photo_files
 
 PHOTO, ROWS = photo_files.scene(64, 96)
@@ -76,8 +76,7 @@ def fonts_of_the_viewer():
     from fontTools.ttLib import TTFont  # noqa: PLC0415
 
     found = {}
-    program = Path(rerun_cli.__file__).with_name("rerun")
-    with program.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+    with program().open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
         place = -1
         while (place := data.find(b"\0\1\0\0\0", place + 1)) >= 0:
             count = struct.unpack(">H", data[place + 4 : place + 6])[0]

@@ -6,12 +6,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_pictures import bin_label, cell_box, draw_bank
-from skyline_viz.viewer.bank_recording import (
-    bin_legend,
-    log_filter_bank,
-    log_path_bins,
-    path_bins,
-)
+from skyline_viz.viewer.bank_recording import bin_legend, log_filter_bank, log_path_bins, path_bins
 from testing.recordings import Read, scene
 
 

@@ -5,19 +5,18 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.diagnosis.diagnosing import diagnose
-from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.diagnosis_recording import _smooth as smooth
 from skyline_viz.viewer.diagnosis_recording import log_diagnosis
+from testing import detections
 from testing.injected import cases
 from testing.recordings import Read, verify
 
 
 @pytest.fixture(scope="module")
 def hazy():
-    scene = render("hazy", 1)
-    return sv.Detector().detect(scene.photo), scene.truth
+    return detections.hazy()
 
 
 def test_the_viewer_gets_frames_lines_and_reasons(tmp_path):

@@ -10,7 +10,7 @@ from nbclient import NotebookClient
 
 import skyline_viz as sv
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.process import PROGRAM
+from skyline_viz.viewer.rerun_internals import program
 from testing import ROOT
 from testing.recordings import Read
 
@@ -34,12 +34,15 @@ def sent(viewer, folder):
     for file, part in zip(files, parts, strict=True):
         file.write_bytes(part)
     merged = folder / "merged.rrd"
-    subprocess.run([PROGRAM, "rrd", "merge", *files, "-o", merged], check=True, capture_output=True)
+    subprocess.run(
+        [program(), "rrd", "merge", *files, "-o", merged], check=True, capture_output=True
+    )
     return Read(merged)
 
 
 @pytest.mark.filterwarnings("default::DeprecationWarning")  # of the widgets' library
 def test_the_cell_is_sent_the_detection(shown, tmp_path):
+    pytest.importorskip("rerun_notebook", reason="not run, the extra 'notebook' is not installed")
     photo = sv.read_photo(ROOT / "sample_data" / "images" / "rover-2.jpg")
     detection = sv.Detector().detect(photo)
     sv.show_detection(detection, detection.skyline, name="rover", height=300)
@@ -61,6 +64,8 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch):
 
 @pytest.mark.filterwarnings("default")  # of the libraries that run notebooks
 def test_the_example_notebook_runs():
+    pytest.importorskip("ipykernel", reason="not run, ipykernel is not installed")
+    pytest.importorskip("rerun_notebook", reason="not run, the extra 'notebook' is not installed")
     notebook = nbformat.read(ROOT / "docs" / "notebook.ipynb", as_version=4)
     assert not any(cell.get("outputs") for cell in notebook.cells)  # kept clean in the repository
     done = NotebookClient(notebook, timeout=120, resources={"metadata": {"path": ROOT / "docs"}})

@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 
 from skyline_viz.viewer import process as viewer
+from skyline_viz.viewer.rerun_internals import ViewerError
 
 
 class Clock:
@@ -69,6 +70,6 @@ class Spinning(Client):
 )
 def test_nothing_is_waited_for_in_vain(monkeypatch, client, says, waited):
     clock = Clock(monkeypatch, step=1)
-    with pytest.raises(viewer.ViewerError, match=says):
+    with pytest.raises(ViewerError, match=says):
         viewer.settled_picture(client)
     assert waited <= clock.now <= waited + 5

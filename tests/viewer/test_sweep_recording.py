@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.config import FILTER_SIZES, TrainingConfig
 from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
-from skyline_viz.training import train
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.sweep_recording import log_sweeps
-from testing.recordings import Read, scene, verify
+from testing.recordings import Read, banks_of_sizes, scene, verify
 
 
 @pytest.fixture(scope="module")
@@ -20,10 +18,7 @@ def found():
 
 @pytest.fixture(scope="module")
 def banks():
-    return [
-        train([scene(seed=1), scene(seed=2)], 0, TrainingConfig(filter_size=size), "two scenes")
-        for size in FILTER_SIZES
-    ]
+    return banks_of_sizes((3, 7, 11))
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from skyline_viz.viewer import process as viewer
-from skyline_viz.viewer.process import ViewerError
+from skyline_viz.viewer.rerun_internals import ViewerError
 from skyline_viz.viewer.web_viewer import POLICY, page_file, served, viewer_program
 
 RECORDINGS = {"one.rrd": b"the first recording", "Z\udcfcrich <b>%.rrd": bytes(300_000)}
@@ -92,7 +92,7 @@ def test_a_recording_that_is_gone_is_a_sentence(tmp_path, program):
         file.unlink()
         where = urlsplit(address)
         status, body, _ = ask(where, f"{where.path}0.rrd")
-    assert (status, body) == (410, b'{"detail": "the recording is not there any more."}')
+    assert (status, body) == (410, b'{"detail": "the file is not there any more."}')
 
 
 @pytest.mark.parametrize("path", ["", "re_viewer.js", "0.rrd"])
@@ -152,7 +152,7 @@ def test_nothing_listens_any_more_afterwards(program):
 
 
 def test_a_viewer_that_does_not_start_is_a_sentence(monkeypatch, tmp_path):
-    monkeypatch.setattr(viewer, "PROGRAM", tmp_path / "nothing")
+    monkeypatch.setattr(viewer, "program", lambda: tmp_path / "nothing")
     viewer_program.cache_clear()
     try:
         with pytest.raises(ViewerError, match="cannot be started"):
@@ -165,7 +165,7 @@ def test_viewers_that_we_start_have_a_way_out_that_leads_nowhere(monkeypatch, tm
     program, said = tmp_path / "viewer", tmp_path / "environment"
     program.write_text(f"#!/bin/sh\nenv > {said}\n")
     program.chmod(0o755)
-    monkeypatch.setattr(viewer, "PROGRAM", program)
+    monkeypatch.setattr(viewer, "program", lambda: program)
     monkeypatch.setenv("HTTPS_PROXY", "http://proxy.example")
     assert viewer.open_viewer([]).wait(10) == 0
     told = dict(line.split("=", 1) for line in said.read_text().splitlines() if "=" in line)

@@ -43,3 +43,26 @@ def test_a_stroke_on_others_is_painted_as_all_of_them_afresh():
         np.testing.assert_array_equal(
             wire._allowed, np.where(forbidden, np.float32(np.inf), wire._cost)
         )
+
+
+def test_edits_that_differ_by_one_anchor_are_known():
+    before = Edits(48, 70).anchor(3, 4).anchor(9, 5)
+    assert before.anchor(20, 6).one_anchor_after(before) == (20, 6, None)
+    assert before.move(9, 20, 6).one_anchor_after(before) == (20, 6, 9)
+    assert before.anchor(9, 7).one_anchor_after(before) == (9, 7, 9)
+    for others in (
+        before,
+        before.remove(9),
+        before.anchor(20, 6).anchor(21, 6),
+        before.remove(3).move(9, 20, 6),
+        before.anchor(20, 6).draw(40, [3, 4]),
+        before.anchor(20, 6).forbid([(1, 1)], 2),
+    ):
+        assert others.one_anchor_after(before) is None
+
+
+def test_what_is_hidden_is_a_run_of_columns_and_is_shown_again():
+    edits = Edits(48, 70).hide(10, 20).hide(21, 25).hide(40, 30)
+    assert edits.hidden == ((10, 25), (30, 40))
+    assert edits.hide(15, 35, hidden=False).hidden == ((10, 14), (36, 40))
+    assert edits.release(0, 69).hidden == ()

@@ -17,15 +17,7 @@ def test_folders_and_zips_as_programs_lay_them_out(tmp_path, photos, layout, pac
         made.written(tmp_path / "in" / name, document)
     source = tmp_path / "in"
     if packed:
-        source = tmp_path / "packed.zip"
-        made.zipped(
-            source,
-            {
-                file.relative_to(tmp_path / "in").as_posix(): file.read_bytes()
-                for file in (tmp_path / "in").rglob("*")
-                if file.is_file()
-            },
-        )
+        source = made.packed(source, tmp_path / "packed.zip")
     found = is_right(imported(source, photos))
     assert bool(found.problems) == (layout == "one damaged file among them")
     assert all("skyline-labels-" not in one for one in (*found.problems, *found.notes))

@@ -1,6 +1,5 @@
 """Label files of other programs: read rightly, or refused with what was found in them."""
 
-import json
 import random
 
 import pytest
@@ -94,16 +93,9 @@ def test_one_bad_entry_never_loses_the_others(tmp_path, photos):
 def test_damaged_documents_raise_nothing_but_sentences(tmp_path, photos, seed):
     chance = random.Random(seed)
     kind = chance.choice(list(READ))
-    document = READ[kind]
-    whole = document if isinstance(document, bytes | str) else json.dumps(document)
-    whole = bytearray(whole if isinstance(whole, bytes) else whole.encode())
-    for _ in range(chance.randint(1, 6)):
-        place = chance.randrange(len(whole))
-        whole[place : place + chance.randint(0, 3)] = chance.choice(
-            [b"", b"-", b"9", b"null", b"[", b"}", b'"', b"\xff", b"1e999", b","]
-        )
+    whole = made.cut_up(READ[kind], chance)
     ending = "xml" if kind.startswith("cvat") else "json"
-    file = made.written(tmp_path / f"a.{ending}", bytes(whole))
+    file = made.written(tmp_path / f"a.{ending}", whole)
     try:
         found = imported(file, photos)
     except FormatError as error:

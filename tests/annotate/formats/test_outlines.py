@@ -5,7 +5,7 @@ import pytest
 from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
-from annotate.formats.outlines import polygon_mask
+from annotate.formats.outlines import line_rows, polygon_mask
 from testing import label_files as made
 from testing.examples import examples
 from testing.imports import imported, said_about
@@ -75,3 +75,10 @@ def test_shares_of_the_sides_are_no_pixels(tmp_path, photos, kind):
     ending = "xml" if kind == "cvat" else "json"
     said = said_about(made.written(tmp_path / f"a.{ending}", IN_SHARES[kind]), photos)
     assert "its points lie within one pixel of the corner: coordinates must be in pixels." in said
+
+
+@pytest.mark.parametrize(("height", "row"), [(20.4, 20), (20.5, 21), (20.6, 21), (0.2, 0)])
+def test_rows_of_a_line_are_whole_and_the_nearest(height, row):
+    rows, reached = line_rows([np.array([[0.0, height], [9.0, height]])], 48, 9)
+    assert reached.all()
+    assert set(rows) == {row}

@@ -10,29 +10,7 @@ import pytest
 from annotate.store.database import StoreError
 from annotate.store.operations import Draw, SetAnchor, SetTag
 from annotate.store.store import Store
-from testing.labelling import asked, hills, served, workbench, write_hills
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return write_hills(tmp_path_factory.mktemp("photos"))
-
-
-@pytest.fixture(scope="module")
-def client(folder):
-    with served(folder) as client:
-        yield client
-
-
-@pytest.fixture
-def fresh(tmp_path):
-    with served(write_hills(tmp_path / "photos")) as client:
-        yield client
-
-
-def do(client, photo, operation, revision=-1):
-    body = asked(revision, operation=operation)
-    return client.post(f"/api/photos/{photo}/operations", json=body)
+from testing.labelling import asked, done, hills, served, workbench, write_hills
 
 
 def test_labelling_a_photo_from_proposal_to_acceptance(fresh):
@@ -41,7 +19,7 @@ def test_labelling_a_photo_from_proposal_to_acceptance(fresh):
     assert len(before["rows"]) == before["width"] == 70
     other = fresh.get("/api/photos/1/alternatives/35").json()["alternatives"][0]["row"]
     shown = fresh.post("/api/photos/1/preview", json={"column": 35, "row": other}).json()
-    after = do(fresh, 1, {"kind": "anchor", "column": 35, "row": other}, 0).json()
+    after = done(fresh, 1, {"kind": "anchor", "column": 35, "row": other}, 0).json()
     assert after["rows"][35] == other
     first, rows = shown["first"], shown["rows"]
     assert after["rows"][first : first + len(rows)] == rows
@@ -52,8 +30,8 @@ def test_labelling_a_photo_from_proposal_to_acceptance(fresh):
     assert undone["can_redo"]
     redone = fresh.post("/api/photos/1/redo", json=asked(undone["revision"])).json()
     assert redone["rows"] == after["rows"]
-    do(fresh, 1, {"kind": "tag", "tag": "needs terrain data", "on": True})
-    accepted = do(fresh, 1, {"kind": "status", "status": "accepted"}).json()
+    done(fresh, 1, {"kind": "tag", "tag": "needs terrain data", "on": True})
+    accepted = done(fresh, 1, {"kind": "status", "status": "accepted"}).json()
     assert (accepted["status"], accepted["tags"]) == ("accepted", ["needs terrain data"])
     assert fresh.get("/api/photos").json()["progress"]["done"] == 1
 
@@ -61,11 +39,11 @@ def test_labelling_a_photo_from_proposal_to_acceptance(fresh):
 def test_what_was_acknowledged_is_there_after_a_restart(tmp_path):
     folder = write_hills(tmp_path)
     with served(folder) as client:
-        do(client, 1, {"kind": "anchor", "column": 20, "row": 40})
-        do(client, 1, {"kind": "forbid", "points": [[50, 30], [60, 30]], "radius": 3})
-        do(client, 1, {"kind": "hidden", "first": 0, "last": 5})
-        do(client, 1, {"kind": "straight", "column": 30, "row": 9, "to_column": 36, "to_row": 12})
-        kept = do(client, 1, {"kind": "drawn", "first": 64, "rows": [7, 8, 9]}).json()
+        done(client, 1, {"kind": "anchor", "column": 20, "row": 40})
+        done(client, 1, {"kind": "forbid", "points": [[50, 30], [60, 30]], "radius": 3})
+        done(client, 1, {"kind": "hidden", "first": 0, "last": 5})
+        done(client, 1, {"kind": "straight", "column": 30, "row": 9, "to_column": 36, "to_row": 12})
+        kept = done(client, 1, {"kind": "drawn", "first": 64, "rows": [7, 8, 9]}).json()
         assert kept["forbidden"] == [{"points": [[50, 30], [60, 30]], "radius": 3, "allow": False}]
         assert kept["hidden"] == [[0, 5]]
         assert kept["rows"][64:67] == [7, 8, 9]
@@ -76,8 +54,8 @@ def test_what_was_acknowledged_is_there_after_a_restart(tmp_path):
 
 
 def test_an_old_revision_is_refused(fresh):
-    first = do(fresh, 1, {"kind": "anchor", "column": 20, "row": 40}, 0)
-    second = do(fresh, 1, {"kind": "anchor", "column": 30, "row": 40}, 0)
+    first = done(fresh, 1, {"kind": "anchor", "column": 20, "row": 40}, 0)
+    second = done(fresh, 1, {"kind": "anchor", "column": 30, "row": 40}, 0)
     assert second.status_code == 409
     assert "another tab" in second.json()["detail"]
     assert second.json()["revision"] == first.json()["revision"]
@@ -98,7 +76,7 @@ def test_blind_photos_show_nothing_of_the_detector(tmp_path):
         assert said["rows"] is None
         assert client.get("/api/photos/1/stages/score").status_code == 403
         assert client.get("/api/photos/1/strip").status_code == 422
-        drawn = do(client, 1, {"kind": "anchor", "column": 5, "row": 11}).json()
+        drawn = done(client, 1, {"kind": "anchor", "column": 5, "row": 11}).json()
         assert set(drawn["rows"]) == {11}
         assert drawn["origins"]["proposal"] == 0
 
@@ -106,7 +84,7 @@ def test_blind_photos_show_nothing_of_the_detector(tmp_path):
 def test_a_photo_that_vanishes_is_a_sentence_and_loses_nothing(tmp_path):
     folder = write_hills(tmp_path)
     with served(folder) as client:
-        do(client, 1, {"kind": "anchor", "column": 20, "row": 40})
+        done(client, 1, {"kind": "anchor", "column": 20, "row": 40})
         (folder / "hill-1.png").unlink()
         gone = client.get("/api/photos/2")
         assert gone.status_code == 410
@@ -142,7 +120,7 @@ def test_a_full_disk_is_a_sentence_and_changes_nothing(tmp_path):
 def test_a_moved_folder_finds_its_labels(tmp_path):
     folder = write_hills(tmp_path / "before")
     with served(folder) as client:
-        kept = do(client, 1, {"kind": "anchor", "column": 20, "row": 40}).json()
+        kept = done(client, 1, {"kind": "anchor", "column": 20, "row": 40}).json()
     moved = tmp_path / "after"
     folder.rename(moved)
     (moved / "hill-0.png").rename(moved / "zzz.png")
@@ -190,7 +168,7 @@ def test_hostile_names_are_shown_as_text(tmp_path):
         assert {photo["name"] for photo in photos} == {*names, "hill-0.png"}
         for photo in photos:
             assert client.get(f"/api/photos/{photo['id']}").json()["name"] == photo["name"]
-            do(client, photo["id"], {"kind": "status", "status": "accepted"})
+            done(client, photo["id"], {"kind": "status", "status": "accepted"})
             thumbnail = client.get(f"/api/photos/{photo['id']}/thumbnail")
             assert thumbnail.headers["content-type"] == "image/jpeg"
         for kind in ("csv", "labelme", "cvat", "coco", "json", "ch1", "painted"):

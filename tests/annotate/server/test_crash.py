@@ -18,8 +18,8 @@ from annotate.store.history import State, folded
 from annotate.store.store import Store
 from testing.labelling import asked, started, write_hills
 
-KILLS = 12
-OPERATIONS = 1000
+KILLS = 8
+OPERATIONS = 650
 
 
 def drawn(chance):

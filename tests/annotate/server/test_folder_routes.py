@@ -3,31 +3,7 @@
 import io
 import zipfile
 
-import pytest
-
-from testing.labelling import asked, served, write_hills
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return write_hills(tmp_path_factory.mktemp("photos"))
-
-
-@pytest.fixture(scope="module")
-def client(folder):
-    with served(folder) as client:
-        yield client
-
-
-@pytest.fixture
-def fresh(tmp_path):
-    with served(write_hills(tmp_path / "photos")) as client:
-        yield client
-
-
-def do(client, photo, operation, revision=-1):
-    body = asked(revision, operation=operation)
-    return client.post(f"/api/photos/{photo}/operations", json=body)
+from testing.labelling import done
 
 
 def test_the_list_has_all_photos(client):
@@ -53,7 +29,7 @@ def test_exporting_what_was_accepted(fresh):
     said = fresh.get("/api/exports/mask")
     assert said.status_code == 422
     assert "nothing to export" in said.json()["detail"]
-    do(fresh, 2, {"kind": "status", "status": "accepted"})
+    done(fresh, 2, {"kind": "status", "status": "accepted"})
     said = fresh.get("/api/exports/mask")
     with zipfile.ZipFile(io.BytesIO(said.content)) as archive:
         assert archive.namelist() == ["masks/hill-1.png"]

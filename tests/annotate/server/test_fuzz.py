@@ -5,7 +5,8 @@ from hypothesis import HealthCheck, given
 from schemathesis.checks import not_a_server_error
 
 from annotate.server.app import make_app
-from annotate.server.security import TOKEN_HEADER, allowed_hosts
+from annotate.server.security import TOKEN_HEADER
+from skyline_viz.system.loopback import allowed_hosts
 from testing.examples import examples
 from testing.labelling import TOKEN, workbench, write_hills
 

@@ -7,18 +7,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from annotate.server.messages import Part
-from testing.labelling import served, write_hills
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return write_hills(tmp_path_factory.mktemp("photos"))
-
-
-@pytest.fixture(scope="module")
-def client(folder):
-    with served(folder) as client:
-        yield client
 
 
 @pytest.mark.parametrize(

@@ -1,15 +1,8 @@
 """Routes of one photo: what they show, and that a preview changes nothing."""
 
 import numpy as np
-import pytest
 
 from testing.labelling import asked, served, write_hills
-
-
-@pytest.fixture(scope="module")
-def client(tmp_path_factory):
-    with served(write_hills(tmp_path_factory.mktemp("photos"))) as client:
-        yield client
 
 
 def operate(client, photo, **operation):

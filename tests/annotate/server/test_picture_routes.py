@@ -2,21 +2,9 @@
 
 import cv2
 import numpy as np
-import pytest
 
 from skyline_viz.photo import read_photo
 from testing.labelling import hills, served, write_hills
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return write_hills(tmp_path_factory.mktemp("photos"))
-
-
-@pytest.fixture(scope="module")
-def client(folder):
-    with served(folder) as client:
-        yield client
 
 
 def picture(response):

@@ -5,7 +5,7 @@ import asyncio
 import pytest
 
 from annotate.server.security import PASS_HEADER, Guard
-from testing.labelling import TOKEN, served, write_hills
+from testing.labelling import TOKEN
 
 ROUTES = [
     ("GET", "/"),
@@ -31,17 +31,6 @@ ROUTES = [
     ("GET", "/api/nothing"),
     ("GET", "/static/index.html"),
 ]
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return write_hills(tmp_path_factory.mktemp("photos"))
-
-
-@pytest.fixture(scope="module")
-def client(folder):
-    with served(folder) as client:
-        yield client
 
 
 @pytest.mark.parametrize(("method", "route"), ROUTES)

@@ -5,25 +5,14 @@ import shutil
 import sqlite3
 from contextlib import closing
 
-import numpy as np
 import pytest
 
 import annotate.store.database as database
-from annotate.store.database import (
-    MIGRATIONS,
-    NAME,
-    Place,
-    StoreError,
-    backup,
-    on_network,
-)
-from annotate.store.lines import Line
+from annotate.store.database import MIGRATIONS, NAME, Place, StoreError, backup, on_network
 from annotate.store.store import Store
-from skyline_viz.skyline import Skyline
 from testing.labelling import served, write_hills
 from testing.labels import label, run
-
-LINE = Line(Skyline(rows=[3, 4, 9]), np.array([0, 1, 3], np.uint8))
+from testing.logs import anchor
 
 
 @pytest.fixture
@@ -95,19 +84,6 @@ def test_a_folder_or_a_device_in_its_place_is_a_sentence(folder, capsys):
     (folder / NAME).unlink()
     (folder / NAME).mkdir()
     assert run("status", folder) == 1
-
-
-@pytest.fixture
-def store(tmp_path):
-    store = Store(write_hills(tmp_path, count=2))
-    store.find()
-    yield store
-    store.close()
-
-
-def anchor(store, label, column, row=5):
-    body = {"column": column, "row": row}
-    return store.append(label, -1, "anchor", body, LINE)
 
 
 def test_every_commit_is_synchronous(store):

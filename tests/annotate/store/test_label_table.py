@@ -5,20 +5,10 @@ import pytest
 
 from annotate.store.label_table import Log, begin, insert, labels_of, require_fit, whole_label
 from annotate.store.lines import Line, LineError
-from annotate.store.store import Store
 from skyline_viz.skyline import Skyline
-from testing.labelling import write_hills
 
 ANCHOR = '{"kind": "anchor", "column": 3, "row": 9}'
 LINE = Line(Skyline(np.full(70, 9)), np.zeros(70, np.uint8))
-
-
-@pytest.fixture
-def store(tmp_path):
-    store = Store(write_hills(tmp_path, count=2))
-    store.find()
-    yield store
-    store.close()
 
 
 def log(photo, **changes):

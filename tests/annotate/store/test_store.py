@@ -18,21 +18,7 @@ from annotate.store.store import StaleError, Store
 from skyline_viz.skyline import Skyline
 from testing.examples import examples
 from testing.labelling import DETECTOR, workbench, write_hills
-
-LINE = Line(Skyline(rows=[3, 4, 9]), np.array([0, 1, 3], np.uint8))
-
-
-@pytest.fixture
-def store(tmp_path):
-    store = Store(write_hills(tmp_path, count=2))
-    store.find()
-    yield store
-    store.close()
-
-
-def anchor(store, label, column, row=5):
-    body = {"column": column, "row": row}
-    return store.append(label, -1, "anchor", body, LINE)
+from testing.logs import LINE, anchor
 
 
 @examples(30)

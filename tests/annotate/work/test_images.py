@@ -29,6 +29,7 @@ def test_a_small_photo_is_seen_exactly_and_a_large_one_reduced(monkeypatch):
 
 def test_a_view_keeps_its_shape_and_a_pixel():
     assert view_size(1, 10**7) == (1, 2048)
+    assert view_size(900, 2200) == (900, 2200)  # few pixels, although it is wide
     height, width = view_size(3000, 9000)
     assert (height, width) == (683, 2048)
 

@@ -114,3 +114,5 @@ def test_two_at_work_on_one_label_notice_each_other(bench, session):
     bench.store.append(session.label, -1, "tag", {"tag": "fog", "on": True})
     with pytest.raises(StaleError):
         session.apply(SetAnchor(column=9, row=5), session.state.revision)
+    with pytest.raises(StaleError, match="changed elsewhere"):
+        session.apply(Open(), session.state.revision)  # which needs no revision

@@ -1,4 +1,4 @@
-"""The stages of a photo as a recording for Rerun's viewer, which the page opens in another tab."""
+"""The stages of a photo as a recording in memory, such as a server sends to a browser."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from skyline_viz.viewer.recording import APPLICATION, fidelity_of, log_detection
 _one_at_a_time = threading.Lock()  # a recording takes as much memory as its photo is large
 
 
-def stages(detection: Detection, line: Skyline, name: str) -> bytes:
-    """Record the stages of a photo: in memory, so that nothing is left on the disk.
+def recorded(detection: Detection, truth: Skyline, name: str) -> bytes:
+    """Bytes of a recording of a photo's stages: nothing of it is ever on the disk.
 
     Args:
         detection: What the detector saw.
-        line: The line as it is labelled now, which counts as the truth.
+        truth: The line to compare with, such as the one that is being labelled.
         name: Name of the photo.
     """
     with _one_at_a_time:
@@ -30,7 +30,7 @@ def stages(detection: Detection, line: Skyline, name: str) -> bytes:
         try:
             recording.send_recording_name(name)
             fidelity = fidelity_of(detection.edges.size)
-            log_detection(recording, detection, line, name=name, fidelity=fidelity)
+            log_detection(recording, detection, truth, name=name, fidelity=fidelity)
             ours = isinstance(detection, FilterDetection)
             height, width = detection.edges.shape
             contents = Contents(

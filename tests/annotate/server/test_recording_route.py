@@ -6,10 +6,9 @@ import threading
 import numpy as np
 import pytest
 
-from annotate.server import stage_viewer
 from annotate.server.security import TOKEN_HEADER
 from annotate.store.operations import SetAnchor
-from skyline_viz.viewer import entities
+from skyline_viz.viewer import entities, in_memory
 from skyline_viz.viewer.web_viewer import POLICY
 from testing.labelling import TOKEN, served, workbench, write_hills
 from testing.recordings import Read
@@ -124,7 +123,7 @@ def test_nothing_is_left_on_the_disk_and_nothing_is_started(tmp_path, monkeypatc
 
 def test_large_photos_are_kept_lean(client, monkeypatch):
     full = len(client.get(RECORDING).content)
-    monkeypatch.setattr(stage_viewer, "fidelity_of", lambda pixels: "lean")
+    monkeypatch.setattr(in_memory, "fidelity_of", lambda pixels: "lean")
     lean = client.get(RECORDING)
     assert lean.status_code == 200
     assert len(lean.content) < full
