@@ -1,11 +1,15 @@
-"""Photos for detections that are right, or wrong for a known reason, and the two presets."""
+"""Photos for detections that are right, or wrong for a known reason, presets, and results."""
+
+from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
 
+import skyline_viz as sv
 from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
+from skyline_viz.evaluation.results import PhotoResult
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
 
@@ -75,3 +79,42 @@ def mountains(height=120, width=180, seed=0):
 
 def random_photo(height, width, seed=0):
     return np.random.default_rng(seed).integers(0, 256, (height, width, 3), dtype=np.uint8)
+
+
+HEIGHT, WIDTH = 64, 96
+
+
+def slanting(number: int) -> tuple[np.ndarray, sv.Skyline]:
+    """A photo with texture below a slanting line, and the line."""
+    rng = np.random.default_rng(number)
+    rows = np.round(20 + number + np.arange(WIDTH) * 0.1 * (number % 3))
+    truth = sv.Skyline(rows)
+    photo = np.full((HEIGHT, WIDTH, 3), (190, 200, 215), np.uint8)
+    terrain = rng.integers(20, 110, (HEIGHT, WIDTH, 1), dtype=np.uint8)
+    return np.where(truth.to_mask(HEIGHT)[..., None], photo, terrain), truth
+
+
+def write_slanting(root: Path, count: int = 5) -> tuple[sv.DatasetItem, ...]:
+    """A plain data set of such photos, ``p0`` to ``p4``."""
+    (root / "images").mkdir(parents=True)
+    for number in range(count):
+        photo, truth = slanting(number)
+        sv.write_photo(root / "images" / f"p{number}.png", photo)
+        truth.write_csv(root / "masks" / f"p{number}.csv")
+    return sv.open_dataset(root).items
+
+
+def result(name: str = "a", error: float = 0.0, **changes) -> PhotoResult:
+    """A result with such an error."""
+    values = {
+        "name": name,
+        "a_err": error,
+        "worst_error": error,
+        "worst_column": 0,
+        "segmentation_accuracy": 1.0,
+        "gross_miss": False,
+        "seconds": 0.5,
+        "height": 100,
+        "width": 10,
+    }
+    return PhotoResult(**(values | changes))

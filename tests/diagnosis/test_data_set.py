@@ -9,7 +9,7 @@ from skyline_viz.diagnosis.data_set import diagnose_photos
 from skyline_viz.evaluation.cross_validation import assign
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.running.resume import Kept
-from testing.results import WIDTH, slanting
+from testing.detections import WIDTH, slanting
 
 
 @pytest.fixture(scope="module")

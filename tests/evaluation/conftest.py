@@ -2,7 +2,7 @@
 
 import pytest
 
-from testing.results import write_slanting
+from testing.detections import write_slanting
 
 
 @pytest.fixture(scope="session")

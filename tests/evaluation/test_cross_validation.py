@@ -15,7 +15,7 @@ from skyline_viz.evaluation.cross_validation import (
 from skyline_viz.method import MethodError
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.running.batch import Failure
-from testing.results import HEIGHT, WIDTH
+from testing.detections import HEIGHT, WIDTH
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import pytest
 
 from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.running.batch import Failure
-from testing.results import result
+from testing.detections import result
 
 
 @pytest.fixture

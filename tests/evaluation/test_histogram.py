@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from skyline_viz.evaluation.histogram import histogram, write_histogram
-from testing.results import result
+from testing.detections import result
 
 
 @given(st.lists(st.floats(0, 1e4), min_size=1, max_size=20))

@@ -16,7 +16,7 @@ from skyline_viz.evaluation.output_files import (
 )
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.running.batch import Failure
-from testing.results import result
+from testing.detections import result
 
 
 def test_the_summary_has_the_figures_of_each_method_under_its_name(tmp_path):

@@ -6,7 +6,7 @@ from rich.console import Console
 
 from skyline_viz.evaluation.results import Summary
 from skyline_viz.evaluation.terminal import drawn, methods_table, summary_table, worst_table
-from testing.results import result
+from testing.detections import result
 
 
 def test_the_tables_name_figures_and_photos():

@@ -14,11 +14,6 @@ MOST_MODULES = 24
 
 WITHOUT = {
     "skyline_viz/_version.py": "the version is tested with the package",
-    "skyline_viz/command_line/methods.py": "tested by the commands that take methods",
-    "skyline_viz/evaluation/comparing.py": "tested with the registry, and by the commands",
-    "skyline_viz/evaluation/report.py": "tested with the cross-validation",
-    "skyline_viz/evaluation/tables.py": "tested with the registry, and by the command",
-    "skyline_viz/gallery/table.py": "tested with a real viewer, in tests/e2e",
 }
 """Modules that have no test file of their own, and why."""
 
