@@ -27,7 +27,7 @@ def photos(tmp_path):
     return tmp_path / "photos"
 
 
-@example(["A.png", "a.png"])
+@example(["Ab.png", "aB.png"])
 @given(st.lists(st.text(min_size=1, max_size=15), max_size=8))
 def test_stems_are_safe_and_no_two_are_alike(names):
     stems = safe_stems(names)
