@@ -8,7 +8,7 @@ import numpy as np
 from rerun.chunk import RrdReader
 
 import skyline_viz as sv
-from skyline_viz.config import FILTER_SIZES, TrainingConfig
+from skyline_viz.config import TrainingConfig
 from skyline_viz.training import train
 from skyline_viz.viewer.rerun_internals import program
 
@@ -110,7 +110,7 @@ def scene(height=90, width=120, noise=6, seed=0):
     return photo.clip(0, 255).astype(np.uint8), sv.Skyline(rows, np.arange(width) != 60)
 
 
-def banks_of_sizes(sizes=FILTER_SIZES):
+def banks_of_sizes(sizes):
     """Filter banks of some sizes, learned from two scenes."""
     return [
         train([scene(seed=1), scene(seed=2)], 0, TrainingConfig(filter_size=size), "two scenes")

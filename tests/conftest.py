@@ -3,7 +3,7 @@
 import pytest
 
 from skyline_viz.cli import main
-from testing.commands import write_scenes
+from testing.programs.commands import write_scenes
 
 
 @pytest.fixture(autouse=True, scope="session")

@@ -10,7 +10,7 @@ import skyline_viz as sv
 from skyline_viz.cli import main
 from skyline_viz.commands import detect as detect_command
 from skyline_viz.running import batch
-from testing.commands import ROOT, files, program, write_scene
+from testing.programs.commands import ROOT, files, program, write_scene
 
 
 def test_help_names_all_commands(say):

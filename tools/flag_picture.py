@@ -14,7 +14,7 @@ from skyline_viz.gallery.flag_page import flag_page
 from skyline_viz.gallery.flags import Change, change_flags
 from skyline_viz.gallery.store import Gallery
 from testing import SAMPLES
-from testing.browser import chromium
+from testing.programs.browser import chromium
 
 SAID = {
     "hazy-2": Change(True, "the far ridge is hardly to be seen"),

@@ -8,8 +8,8 @@ from pathlib import Path
 from PIL import Image
 
 from skyline_viz.datasets.truths import read_truth
-from testing.browser import Page, chromium
 from testing.labelling import served
+from testing.programs.browser import Page, chromium
 
 SAMPLES = Path(__file__).parents[1] / "sample_data" / "images"
 

@@ -21,8 +21,8 @@ from benchmarks.reliability import Trial
 from skyline_viz.photo import read_photo, write_photo
 from skyline_viz.system.memory import in_words
 from skyline_viz.viewer.web_viewer import served as served_recordings
-from testing.browser import chromium
 from testing.labelling import TOKEN, served, workbench, write_hills
+from testing.programs.browser import chromium
 
 SAMPLE = Path(__file__).resolve().parents[2] / "sample_data" / "images" / "clear-2.jpg"
 OURS = ("127.0.0.1:{port}", "localhost:{port}", "[::1]:{port}")

@@ -17,10 +17,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from benchmarks.reliability import Trial
-from testing.browser import Page, chromium
 from testing.labelling import write_hills
-from testing.node import node_tests
-from testing.restarts import Restarted, kept
+from testing.programs.browser import Page, chromium
+from testing.programs.node import node_tests
+from testing.programs.restarts import Restarted, kept
 
 SIZE = {"height": 240, "width": 400}
 SCHEDULES = 2000

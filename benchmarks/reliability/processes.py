@@ -14,8 +14,8 @@ from time import sleep
 from benchmarks.reliability import Trial
 from skyline_viz.running.resume import FOLDER
 from testing import until
-from testing.ends import CASES, SERVING, ended, started, write_set
-from testing.full import COMMANDS, fault_of
+from testing.programs.ends import CASES, SERVING, ended, started, write_set
+from testing.programs.full import COMMANDS, fault_of
 
 _HUNG_UP = ("detect", "evaluate", "gallery", "open")
 _RUNS, _KILLS = 2, 4

@@ -2,7 +2,7 @@
 
 import pytest
 
-from testing.node import PAGE, node_tests
+from testing.programs.node import PAGE, node_tests
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from skyline_viz import rendering
-from testing.commands import files, write_scene
+from testing.programs.commands import files, write_scene
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from PIL import Image
 
 import skyline_viz as sv
 from skyline_viz.commands import detect as detect_command
-from testing.commands import HEIGHT, WIDTH, files, scene, write_scene
+from testing.programs.commands import HEIGHT, WIDTH, files, scene, write_scene
 
 
 def test_detect_writes_a_line_for_each_column(say, tmp_path):

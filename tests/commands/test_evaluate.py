@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from testing.commands import files, write_scenes
+from testing.programs.commands import files, write_scenes
 
 
 def test_evaluate_prints_and_writes(say, hills, tmp_path):

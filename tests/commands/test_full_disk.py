@@ -11,8 +11,8 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.rendering import render
-from testing.ends import write_set
-from testing.full import COMMANDS, fault_of, run
+from testing.programs.ends import write_set
+from testing.programs.full import COMMANDS, fault_of, run
 
 
 @pytest.fixture(scope="module")

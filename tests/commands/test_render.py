@@ -4,7 +4,7 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz import rendering
-from testing.commands import files
+from testing.programs.commands import files
 
 
 def test_render_makes_scenes_of_a_kind(say, tmp_path):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from testing.commands import files
+from testing.programs.commands import files
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 import numpy as np
 
 import skyline_viz as sv
-from testing.commands import scene, write_scene, write_scenes
+from testing.programs.commands import scene, write_scene, write_scenes
 
 
 def test_train_writes_a_bank_and_tells_about_it(say, hills, tmp_path):

@@ -8,7 +8,7 @@ import skyline_viz as sv
 from skyline_viz.diagnosis.data_set import diagnose_photo
 from skyline_viz.diagnosis.record import pack, unpack
 from skyline_viz.evaluation.tasks import PhotoTask
-from testing.ends import write_set
+from testing.programs.ends import write_set
 
 PHOTOS = 6
 

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.config import FILTER_SIZES, DetectorConfig
+from skyline_viz.config import DetectorConfig
 from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
 from testing.recordings import banks_of_sizes, scene
 
+SIZES = (3, 7, 11)
 SETTINGS = (
     "canny_thresholds",
     "v",
@@ -36,7 +37,7 @@ def found():
 
 @pytest.fixture(scope="module")
 def banks():
-    return banks_of_sizes()
+    return banks_of_sizes(SIZES)
 
 
 @pytest.mark.parametrize("config", CONFIGS.values(), ids=CONFIGS)
@@ -102,7 +103,7 @@ def test_stages_that_a_setting_leaves_are_not_computed_again(found):
 
 def test_filter_sizes_are_those_of_the_banks(found, banks):
     sweep = size_sweep(found[0], banks)
-    assert [step.at for step in sweep.steps] == list(FILTER_SIZES)
+    assert [step.at for step in sweep.steps] == list(SIZES)
     assert sweep.present == 7
     assert "2 photos of two scenes" in sweep.note
     for (_, detection), bank in zip(sweep.detections(found[0]), banks, strict=True):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from testing.browser import chromium
+from testing.programs.browser import chromium
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from testing import ROOT
-from testing.browser import chromium
+from testing.programs.browser import chromium
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ from skyline_viz.gallery.flag_page import flag_page
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
 from skyline_viz.gallery.store import Gallery
 from testing import SAMPLES
-from testing.browser import chromium
+from testing.programs.browser import chromium
 
 NAMES = ["hazy-1", "spires-5", "rover-2"]  # the worst first
 

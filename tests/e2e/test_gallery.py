@@ -26,7 +26,7 @@ from skyline_viz.viewer.process import (
 )
 from skyline_viz.viewer.rerun_internals import program
 from testing import SAMPLES, until
-from testing.robot import Robot, listening, viewer_port
+from testing.programs.robot import Robot, listening, viewer_port
 
 NAMES = ["hazy-1", "spires-5", "rover-2"]  # the worst first
 

@@ -13,8 +13,8 @@ from annotate.engine.live_wire import LiveWire
 from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline
-from testing.browser import Page
 from testing.labelling import DETECTOR, served, write_hills
+from testing.programs.browser import Page
 
 HEIGHT, WIDTH = 240, 400
 

@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from testing.browser import Page
 from testing.labelling import asked, served, write_hills
+from testing.programs.browser import Page
 
 SIZE = {"height": 240, "width": 400}
 

@@ -6,9 +6,9 @@ import pytest
 
 from benchmarks.reliability.page import worked
 from skyline_viz.photo import write_photo
-from testing.browser import Page
 from testing.labelling import hills, served, write_hills
-from testing.restarts import Restarted, kept_anchors
+from testing.programs.browser import Page
+from testing.programs.restarts import Restarted, kept_anchors
 
 SIZE = {"height": 240, "width": 400}
 

@@ -18,7 +18,7 @@ from skyline_viz.viewer.process import (
 )
 from skyline_viz.viewer.rerun_internals import ViewerError, program
 from testing import SAMPLES, until
-from testing.robot import Robot, listening, viewer_port
+from testing.programs.robot import Robot, listening, viewer_port
 
 HARMLESS = ("rasterizer", "Docker", "lookup address")  # what a machine without a screen is told
 

@@ -11,8 +11,8 @@ from annotate.store.operations import SetAnchor
 from skyline_viz.cli import main
 from skyline_viz.colours import PATH, TRUTH
 from skyline_viz.viewer.web_viewer import served as served_recordings
-from testing.browser import chromium
 from testing.labelling import TOKEN, served, workbench, write_hills
+from testing.programs.browser import chromium
 
 PATIENCE = 120_000  # milliseconds: the viewer draws without a graphics card
 

@@ -16,7 +16,7 @@ from skyline_viz.evaluation.tasks import PhotoTask
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import FOLDER, Codec, Kept
 from testing import until
-from testing.ends import started, write_set
+from testing.programs.ends import started, write_set
 
 PHOTOS = 6
 COMMANDS = {

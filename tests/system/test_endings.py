@@ -4,7 +4,7 @@ import signal
 
 import pytest
 
-from testing.ends import CASES, SERVING, ended, write_set
+from testing.programs.ends import CASES, SERVING, ended, write_set
 
 SIGNALS = {signal.SIGTERM: 143, signal.SIGHUP: 129, signal.SIGINT: 130, signal.SIGKILL: -9}
 TRIED = [  # every command killed, and what is asked to end in every way

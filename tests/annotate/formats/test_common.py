@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from annotate.formats.common import (
@@ -27,6 +27,7 @@ def photos(tmp_path):
     return tmp_path / "photos"
 
 
+@example(["Ab.png", "aB.png"])
 @given(st.lists(st.text(min_size=1, max_size=15), max_size=8))
 def test_stems_are_safe_and_no_two_are_alike(names):
     stems = safe_stems(names)

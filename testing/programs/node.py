@@ -3,9 +3,10 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
-PAGE = Path(__file__).parents[1] / "tests" / "page"
+from testing import ROOT
+
+PAGE = ROOT / "tests" / "page"
 """Where these tests are."""
 
 
