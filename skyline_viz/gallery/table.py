@@ -125,7 +125,7 @@ def contents_of(entries: Sequence[Entry], truth: bool) -> Contents:
         one_size=all((one.height, one.width) == (first.height, first.width) for one in entries),
         truth=truth,
         bank=False,
-        filters=first.method in ("default", "paper"),
+        filters=first.filters,
         compared=first.compared,
         diagnosed=any(entry.causes for entry in entries),
         stacked_costs=False,
