@@ -47,7 +47,9 @@ def test_photos_of_other_sizes_fit_themselves_into_the_views():
 
 @pytest.mark.parametrize(("method", "ours"), [("default", True), ("edges", False)])
 def test_the_layout_holds_what_the_recordings_hold(method, ours):
-    contents = contents_of([replace(SQUARE, method=method, compared="paper")], truth=False)
+    contents = contents_of(
+        [replace(SQUARE, method=method, filters=ours, compared="paper")], truth=False
+    )
     assert contents == Contents(
         1024,
         1000,
