@@ -19,9 +19,9 @@ _SHEET = 24  # strips a page
 
 
 @router.get("/legend")
-def legend() -> Legend:
+def legend(bench: Bench) -> Legend:
     """Words and colours that are the same for every photo."""
-    return Legend.made()
+    return Legend.made(bench.overlays())
 
 
 @router.get("/photos")

@@ -13,7 +13,7 @@ from annotate.formats import TITLES
 from annotate.store.cards import Card
 from annotate.store.labels import STATUSES, TAGS, Status
 from annotate.store.operations import Operation, Place, spoken
-from annotate.work.images import BAND, STAGES, TILE
+from annotate.work.images import BAND, TILE
 from annotate.work.session import Session
 from annotate.work.workbench import Progress
 from skyline_viz.arrays import F64, Int
@@ -88,7 +88,7 @@ class Legend(BaseModel):
     """Tags that are offered."""
 
     stages: tuple[str, ...]
-    """Stages that can be laid over a photo."""
+    """Stages, and terms of the cost, that can be laid over a photo."""
 
     formats: tuple[ShownFormat, ...]
     colours: Colours
@@ -99,12 +99,12 @@ class Legend(BaseModel):
     """Rows above and below the line in a strip."""
 
     @classmethod
-    def made(cls) -> Legend:
-        """Put together what is defined elsewhere."""
+    def made(cls, stages: tuple[str, ...]) -> Legend:
+        """Put together what is defined elsewhere, and what can be laid over a photo."""
         return cls(
             statuses=STATUSES,
             tags=TAGS,
-            stages=STAGES,
+            stages=stages,
             formats=tuple(ShownFormat(name=name, says=says) for name, says in TITLES.items()),
             colours=Colours(
                 line=css(PATH), preview=css(ALTERNATIVE), anchor=css(ANCHOR), halo=css(HALO)

@@ -37,12 +37,13 @@ def tile(bench: Bench, photo: PhotoId, across: Tile, down: Tile) -> Response:
 
 @router.get("/stages/{stage}")
 def stage(bench: Bench, photo: PhotoId, stage: str) -> Response:
-    """A stage of the detector, to be laid over the photo."""
-    if stage not in images.STAGES:
-        raise HTTPException(404, f"there is no such stage; there are {', '.join(images.STAGES)}.")
+    """A stage or a term of the cost, to be laid over the photo."""
     if bench.session(photo).blind:
         raise HTTPException(403, BLIND)
-    return Response(images.stage(bench.detection(photo), stage), media_type="image/png")
+    detection = bench.detection(photo)
+    if stage not in (known := images.overlays(detection)):
+        raise HTTPException(404, f"there is no such stage; there are {', '.join(known)}.")
+    return Response(images.stage(detection, stage), media_type="image/png")
 
 
 @router.get("/strip")

@@ -53,7 +53,7 @@ export class Overlay {
     const { document } = this.#labelling;
     if (stage === NONE || !document) return this.#photo.lay(null, opacity);
     try {
-      const layer = await picture(`api/photos/${document.id}/stages/${stage}`);
+      const layer = await picture(`api/photos/${document.id}/stages/${encodeURIComponent(stage)}`);
       if (this.#labelling.document?.id === document.id && this.#choice.value === stage) this.#photo.lay(layer, opacity);
     } catch (error) {
       this.#choice.selectedIndex = 0;

@@ -12,7 +12,7 @@ from skyline_viz.arrays import F32, U8
 from skyline_viz.colours import coloured
 from skyline_viz.detection import Detection
 from skyline_viz.skyline import Skyline
-from skyline_viz.stage import OURS, Quantity, of_term
+from skyline_viz.stage import Quantity, of_term
 
 TILE = 512
 """Side of a tile, in pixels."""
@@ -25,9 +25,6 @@ EXACT = 2_000_000
 
 BAND = 40
 """Rows above and below the line in the straightened strip."""
-
-STAGES = tuple(one.name for one in OURS)
-"""Stages of our detector that can be laid over the photo, in their order."""
 
 
 def overlays(detection: Detection) -> tuple[str, ...]:

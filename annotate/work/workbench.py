@@ -34,6 +34,7 @@ from skyline_viz.system.memory import photo_limit
 Order = Literal["name", "margin", "random"]
 """In which order photos are labelled: by name, the least certain first, or shuffled."""
 
+_SMALL = np.repeat(np.arange(64, dtype=np.uint8) // 32 * 200, 96 * 3).reshape(64, 96, 3)
 _AT_ONCE = 2  # photos that are read or detected at a time, however many are asked for
 
 
@@ -222,6 +223,10 @@ class Workbench:
             worked_on = self.session(card.photo.id).state.revision > 0  # and undone: it stays
             changed += before is not None and not worked_on
         return changed
+
+    def overlays(self) -> tuple[str, ...]:
+        """What can be laid over a photo: stages and terms of what proposes, the same for all."""
+        return images.overlays(self.detector.detect(_SMALL))
 
     def detection(self, photo: int) -> Detection:
         """All stages of a photo, by the detector that made its proposal.

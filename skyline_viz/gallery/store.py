@@ -79,9 +79,6 @@ class Entry:
     method: str = "default"
     """Name of the method."""
 
-    filters: bool = True
-    """Whether it is our detector, whose tensor and bins are recorded, too."""
-
     compared: str = ""
     """Name of the method beside the first; nothing without one."""
 
@@ -102,7 +99,6 @@ class Entry:
         return listed_segments(self.verdict.segments or (), most=2)
 
 
-@dataclass(frozen=True)
 @dataclass(frozen=True)
 class Gallery:
     """The files of a gallery."""

@@ -11,6 +11,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
+from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.gallery import flag_page as module
 from skyline_viz.gallery.flag_page import POLICY, about, flag_page
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
@@ -149,12 +150,17 @@ def test_a_full_disk_is_a_sentence_and_nothing_is_acknowledged(built, page, monk
 
 
 def test_what_a_detection_came_to_is_said_in_words():
-    entry = Entry("a", "", "", 60, 70, margin=1.234, unsure_column=7)
+    verdict = Verdict(None, None, None, None, None, 1.234, 7)
+    entry = Entry("a", "", "", 60, 70, verdict)
     assert about(entry) == ("", "margin 1.23 at 7")
-    right = replace(entry, a_err=0.5, segments=(), causes=())
+    right = replace(entry, verdict=replace(verdict, a_err=0.5, segments=()), causes=())
     assert about(right) == ("A_err 0.50 px", "no column wrong · margin 1.23 at 7")
     wrong = replace(
-        right, segments=((0, 9),), causes=("too steep",), compared="paper", difference=2.0
+        right,
+        verdict=replace(right.verdict, segments=((0, 9),)),
+        causes=("too steep",),
+        compared="paper",
+        difference=2.0,
     )
     assert about(wrong) == (
         "2.00 px from paper · A_err 0.50 px · too steep",

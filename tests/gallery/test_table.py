@@ -4,11 +4,15 @@ from dataclasses import replace
 
 import pytest
 
+from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.gallery.store import Entry
 from skyline_viz.gallery.table import contents_of
-from skyline_viz.viewer.blueprints import Contents, detection_blueprint
+from skyline_viz.stage import OURS
+from skyline_viz.viewer.blueprints import detection_blueprint
+from skyline_viz.viewer.contents import Contents
 
-SQUARE = Entry("a", "", "", 1024, 1000, margin=1.0, unsure_column=0, causes=("too steep",))
+VERDICT = Verdict(None, None, None, None, None, 1.0, 0)
+SQUARE = Entry("a", "", "", 1024, 1000, VERDICT, OURS, causes=("too steep",))
 
 
 def all_views(part):
@@ -45,16 +49,16 @@ def test_photos_of_other_sizes_fit_themselves_into_the_views():
     assert bounds(contents) == []
 
 
-@pytest.mark.parametrize(("method", "ours"), [("default", True), ("edges", False)])
-def test_the_layout_holds_what_the_recordings_hold(method, ours):
+@pytest.mark.parametrize(("method", "stages"), [("default", OURS), ("edges", OURS[:1])])
+def test_the_layout_holds_what_the_recordings_hold(method, stages):
     contents = contents_of(
-        [replace(SQUARE, method=method, filters=ours, compared="paper")], truth=False
+        [replace(SQUARE, method=method, stages=stages, compared="paper")], truth=False
     )
     assert contents == Contents(
         1024,
         1000,
         bank=False,
-        filters=ours,
+        stages=stages,
         compared="paper",
         diagnosed=True,
         stacked_costs=False,

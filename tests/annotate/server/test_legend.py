@@ -8,6 +8,7 @@ from annotate.formats import FORMATS, TITLES
 from annotate.store.labels import STATUSES, TAGS
 from annotate.work import images
 from skyline_viz import overlay
+from skyline_viz.stage import OURS
 from testing.labelling import served, write_hills
 from tools import page_types
 
@@ -26,7 +27,7 @@ def test_the_legend_says_what_is_defined_elsewhere(tmp_path):
         legend = client.get("/api/legend").json()
     assert tuple(legend["statuses"]) == STATUSES
     assert tuple(legend["tags"]) == TAGS
-    assert tuple(legend["stages"]) == images.STAGES
+    assert legend["stages"] == [*(one.name for one in OURS), "no edge", "clear sky", "terrain"]
     assert {one["name"]: one["says"] for one in legend["formats"]} == TITLES
     assert (legend["tile"], legend["band"]) == (images.TILE, images.BAND)
     assert legend["colours"] == {
@@ -47,7 +48,7 @@ def test_the_page_says_nothing_twice(file):
     lines = (overlay.PATH, overlay.TRUTH, overlay.ALTERNATIVE)
     assert not [one for one in map(overlay.css, lines) if one in text]
     if file.suffix == ".js":
-        words = {*TITLES.values(), *TAGS, *(set(FORMATS) - {"json"}), *images.STAGES}
+        words = {*TITLES.values(), *TAGS, *(set(FORMATS) - {"json"}), *(one.name for one in OURS)}
         written = set(re.findall(r"[\"'`]([^\"'`\n]*)[\"'`]", text))
         assert not {word.lower() for word in words} & written
 

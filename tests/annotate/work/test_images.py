@@ -6,12 +6,15 @@ import pytest
 
 import skyline_viz as sv
 from annotate.work import images
-from annotate.work.images import BAND, STAGES, TILE, stage, strip, thumbnail, tile, view, view_size
+from annotate.work.images import BAND, TILE, stage, strip, thumbnail, tile, view, view_size
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.methods.gradient import GradientCost
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
+from skyline_viz.stage import OURS
 from testing.labelling import DETECTOR, hills
+
+STAGES = tuple(one.name for one in OURS)
 
 
 def opened(data):
@@ -112,8 +115,8 @@ def test_every_overlay_is_a_picture_of_the_photos_size(method, blank):
 
 def test_our_stages_and_terms_can_all_be_laid_over_the_photo():
     found = METHODS["ours"].detect(PHOTO)
-    assert images.overlays(found) == (*images.STAGES, "no edge", "clear sky", "terrain")
-    for name in images.STAGES:
+    assert images.overlays(found) == (*STAGES, "no edge", "clear sky", "terrain")
+    for name in STAGES:
         assert overlay(found, name)[..., 3].any()
 
 
