@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help demo test check docs coverage bounds fuzz legs ci bench reliability pictures samples lock clean
+.PHONY: help demo test check docs bounds fuzz legs bench reliability pictures samples lock clean
 
 SOURCES = pyproject.toml requirements.txt tools/setup.sh
 MKDOCS = NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict --quiet
@@ -14,8 +14,11 @@ help:  ## Say what can be made.
 demo: .venv/.installed-run  ## Find the skylines of the samples, or of PHOTOS=FOLDER, and show them.
 	.venv/bin/skyline-viz demo $(if $(PHOTOS),"$(PHOTOS)")
 
-test: check  ## Everything that must hold: lint, types, doctests, tests.
-	$(PYTEST) -n auto --dist loadscope
+test: check  ## Everything that must hold: make check, and all tests, which reach 95 % of lines and branches.
+	.venv/bin/coverage erase
+	.venv/bin/coverage run -m pytest -n auto --dist loadscope
+	.venv/bin/coverage combine --quiet
+	.venv/bin/coverage report
 
 check: .venv/.installed-dev  ## Lint, types, direction of imports, the page, docs with all their links.
 	.venv/bin/ruff check .
@@ -29,12 +32,6 @@ docs: .venv/.installed-dev  ## The docs as a site, to read without a network: si
 	$(MKDOCS)
 	@echo "Open site/index.html in a browser."
 
-coverage: .venv/.installed-dev  ## All tests, with the lines and branches that they reach: at least 95 %.
-	.venv/bin/coverage erase
-	.venv/bin/coverage run -m pytest -n auto --dist loadscope
-	.venv/bin/coverage combine --quiet
-	.venv/bin/coverage report
-
 bounds: .venv/.installed-dev  ## The tests of the compiled loops, every index checked.
 	NUMBA_BOUNDSCHECK=1 NUMBA_CACHE_DIR=.venv/bounds $(PYTEST) -n auto --dist loadscope $(KERNEL_TESTS)
 
@@ -43,8 +40,6 @@ fuzz: .venv/.installed-dev  ## The properties, with twenty times as many example
 
 legs: .venv/.installed-dev  ## The tests with the lowest and the newest versions, on Python 3.11 and 3.13.
 	tools/legs.sh
-
-ci: check coverage bounds legs  ## What has to be green before a change lands.
 
 bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the folder of the real data sets.
 	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)")
