@@ -85,8 +85,9 @@ class Bins:
     def label(self, index: int) -> str:
         """What a bin stands for, in words.
 
-        >>> Bins().label(143)
-        'bin 143: coherence 0.4 to 0.8, strength 112 to 148, orientation 163 to 174°'
+        Examples:
+            >>> Bins().label(143)
+            'bin 143: coherence 0.4 to 0.8, strength 112 to 148, orientation 163 to 174°'
         """
         row, orientation = divmod(index, self.orientations)
         coherence, strength = divmod(row, self.strengths)

@@ -69,8 +69,9 @@ class DetectorConfig:
     def changed(self) -> list[str]:
         """Settings that differ from the defaults, in words.
 
-        >>> DetectorConfig(delta=1).changed()
-        ['delta 1']
+        Examples:
+            >>> DetectorConfig(delta=1).changed()
+            ['delta 1']
         """
         default = type(self)()
         return [
@@ -107,8 +108,9 @@ class DetectorConfig:
     def name(self) -> str:
         """The nearest preset, and the settings that differ from it.
 
-        >>> DetectorConfig(delta=10, v=0.9).name
-        'default:v=0.9,delta=10'
+        Examples:
+            >>> DetectorConfig(delta=10, v=0.9).name
+            'default:v=0.9,delta=10'
         """
         presets = {name: asdict(preset) for name, preset in self.presets().items()}
         return nearest_name(asdict(self), presets)

@@ -21,7 +21,7 @@ class Line(LearnedMethod):
 
 
 def with_model(**arrays):
-    return Line("line", {"line": np.ones(3), "offset": np.zeros(1)} | arrays)
+    return Line({"line": np.ones(3), "offset": np.zeros(1)} | arrays)
 
 
 @dataclass(frozen=True)
@@ -36,18 +36,18 @@ class Item:
 
 
 def test_fitting_makes_another_method_and_sharing_hands_it_on():
-    plain = Line("line")
+    plain = Line(label="line")
     fitted = plain.fit([1, 2], seed=7)
     assert plain.model == {}
     np.testing.assert_array_equal(fitted.part("line"), [7, 7])
-    other = Line("other").sharing(fitted)
+    other = Line(label="other").sharing(fitted)
     assert (other.name, other.model) == ("other", fitted.model)
-    assert plain.family == "line"
+    assert plain.family == Line(label="other").family
 
 
 def test_without_training_it_says_how_to_train():
     with pytest.raises(MethodError, match="line has learned nothing yet; train it with: skyline"):
-        Line("line").part("line")
+        Line(label="line").part("line")
     with pytest.raises(MethodError, match="its slope is missing"):
         with_model().part("slope")
 
@@ -64,7 +64,7 @@ def test_without_training_it_says_how_to_train():
 )
 def test_a_model_that_does_not_fit_is_refused(arrays, says):
     model = {name: one for name, one in with_model(**arrays).model.items() if one is not None}
-    method = Line("line", model)
+    method = Line(model)
     with pytest.raises(ValueError, match=says):
         method.check_model()
     if "inf" not in str(arrays):  # what it holds is known only when it has been read

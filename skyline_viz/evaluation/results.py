@@ -68,9 +68,10 @@ class PhotoResult:
 class Summary:
     """Results over all photos. A few whole-image failures rule the mean, none of them the median.
 
-    >>> results = [PhotoResult.of("a", Skyline([4, 5]), Skyline([4, 4]), height=9)]
-    >>> Summary.of(results).mean
-    0.5
+    Examples:
+        >>> results = [PhotoResult.of("a", Skyline([4, 5]), Skyline([4, 4]), height=9)]
+        >>> Summary.of(results).mean
+        0.5
     """
 
     photos: int

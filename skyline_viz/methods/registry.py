@@ -51,11 +51,12 @@ def find_method(text: str) -> Configurable:
     Settings are ``name=value``, with commas between; of a method by its name, ``model=FILE`` is the
     file of what it has learned. See `specs` for names of files that hold such signs.
 
-    >>> find_method("steep=paper:delta=4").name, find_method("paper:delta=4").name
-    ('steep', 'paper:delta=4')
-
     Raises:
         MethodError: There is none of that name, or its file or its class is of no use.
+
+    Examples:
+        >>> find_method("steep=paper:delta=4").name, find_method("paper:delta=4").name
+        ('steep', 'paper:delta=4')
     """
     spec = _parsed(text)
     settings = dict(spec.settings)

@@ -166,7 +166,7 @@ def stages_of(method: str) -> str:
     r"""Parent of the stages of another method, by its name.
 
     >>> stages_of("edges"), stages_of("paper:delta=4")
-    ('methods/edges', 'methods/paper\\\\:delta\\\\=4')
+    ('methods/edges', 'methods/paper\\:delta\\=4')
     """
     return f"{METHODS}/{rr.escape_entity_path_part(method)}"
 

@@ -37,7 +37,6 @@ def test_outputs_are_not_put_among_photos_not_even_those_without_truth(root):
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        ({"folds": 2, "bank": "b.npz"}, "--folds trains filter banks of its own"),
         ({"seed": -1}, "a seed is 0 or more, not -1"),
     ],
 )

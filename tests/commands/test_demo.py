@@ -29,11 +29,14 @@ def test_the_demo_is_a_gallery_the_worst_first(say, hills, tmp_path, _no_viewer)
         "gallery.json",
         "gallery.png",
         *(f"recordings/p{number}.rrd" for number in range(4)),
+        *(f"thumbnails/p{number}.jpg" for number in range(4)),
     ]
     assert "4 photos in shown" in out
     assert "--out shown --serve" in out
     errors = json.loads((tmp_path / "shown" / "gallery.json").read_text())["photos"]
-    worst_first = sorted(errors, key=lambda one: (-one["a_err"], one["margin"], one["name"]))
+    worst_first = sorted(
+        errors, key=lambda one: (-one["verdict"]["a_err"], one["verdict"]["margin"], one["name"])
+    )
     assert _no_viewer == [[one["name"] for one in worst_first]]
 
 

@@ -54,7 +54,7 @@ def test_the_command_tells_causes_and_remedies(tmp_path, capsys):
     assert len(told) == 12
     assert sum(len(photo["segments"]) for photo in told.values()) == len(segments)
     assert told["hazy-1"]["segments"][0]["columns"] == [0, 959]
-    assert len(told["hazy-1"]["remedies"]) == 7
+    assert len(told["hazy-1"]["remedies"]) == 13
 
 
 def test_one_photo_leaves_the_report_of_the_data_set(tmp_path, capsys):

@@ -34,8 +34,9 @@ def test_other_methods_tell_what_there_is_of_them(found, tmp_path):
         assert log_methods(recording, detection, (), truth, "lean") == ()
         methods = (EdgesOnly(), sv.Detector(config=sv.DetectorConfig.paper()))
         edges, paper = log_methods(recording, detection, methods, truth, "lean")
-    assert (edges.name, edges.filters, edges.edges) == ("edges", False, True)
-    assert (paper.filters, paper.edges) == (True, True)
+    assert (edges.name, paper.name) == ("edges", "paper")
+    assert {"edges", "cost"} <= {one.name for one in edges.stages}
+    assert {one.name for one in paper.stages} - {one.name for one in edges.stages} >= {"bin"}
 
 
 def test_sweeps_begin_with_a_timeline_each_and_say_what_is_left_out(found, tmp_path, capsys):

@@ -7,7 +7,7 @@ import pytest
 
 from skyline_viz.bins import Bins
 from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank
-from skyline_viz.viewer.bank_pictures import bin_label, cell_box, draw_bank
+from skyline_viz.viewer.bank_pictures import cell_box, draw_bank
 
 BINS = Bins(2, 3, 4, 0.7, 10, 99)
 
@@ -73,7 +73,7 @@ def test_words_say_which_tensors_fall_into_a_bin(bins):
     found = bins.of(Tensor(strength, coherence, orientation))
     number = r"(-?[\d.]+)"
     for place, index in enumerate(found.tolist()):
-        words = bin_label(index, bins)
+        words = bins.label(index)
         for name, value in (("coherence", coherence), ("strength", strength)):
             if between := re.search(rf"{name} {number} to {number}", words):
                 low, high = map(float, between.groups())

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
+from skyline_viz.detector import bin_legend
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.bank_pictures import bin_label, cell_box, draw_bank
-from skyline_viz.viewer.bank_recording import bin_legend, log_filter_bank, log_path_bins, path_bins
+from skyline_viz.viewer.bank_pictures import cell_box, draw_bank
+from skyline_viz.viewer.bank_recording import log_filter_bank, log_path_bins, path_bins
 from testing.recordings import Read, scene
 
 
@@ -34,7 +35,7 @@ def test_the_pictures_lie_under_their_parent_and_cells_have_words(read, found):
         np.testing.assert_array_equal(read.picture(place), picture)
         np.testing.assert_array_equal(read.classes(f"{place}/cells"), pictures.cells)
         labels = read.labels(f"{place}/cells")
-        assert labels[8] == f"{bin_label(7, bank.bins)}: {int(bank.samples[7]):,} samples"
+        assert labels[8] == f"{bank.bins.label(7)}: {int(bank.samples[7]):,} samples"
 
 
 def test_the_path_used_the_bins_of_its_edge_pixels(found):
@@ -59,7 +60,7 @@ def test_scrubbing_tells_of_each_column(read, found):
         (text,) = texts[column]
         assert text.startswith(f"**Column {column}**, row {int(found.skyline.rows[column])}")
         if bins[column] >= 0:
-            assert bin_label(int(bins[column]), found.bank.bins).capitalize() in text
+            assert found.bank.bins.label(int(bins[column])).capitalize() in text
             here = found.edge_rows == int(found.skyline.rows[column])
             (pixel,) = np.flatnonzero(here & (found.edge_columns == column))
             assert f"Score {found.scores[pixel]:.3f}" in text
@@ -77,7 +78,4 @@ def test_the_frame_lies_around_the_filter_that_was_used(read, found):
 
 def test_every_bin_has_a_colour_and_words_of_its_own():
     legend = bin_legend(sv.Bins())
-    infos = legend.context.as_arrow_array().to_pylist()[0]
-    labels = [one["class_description"]["info"]["label"] for one in infos]
-    assert len(labels) == sv.Bins().count + 1
-    assert len(set(labels)) == len(labels)
+    assert len({words for words, _ in legend}) == len(legend) == sv.Bins().count

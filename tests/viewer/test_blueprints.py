@@ -2,12 +2,9 @@
 
 import pytest
 
-from skyline_viz.viewer.blueprints import (
-    Contents,
-    MethodContents,
-    detection_blueprint,
-    stages_blueprint,
-)
+from skyline_viz.stage import OURS
+from skyline_viz.viewer.blueprints import detection_blueprint, stages_blueprint
+from skyline_viz.viewer.contents import Contents, MethodContents
 
 PLAIN = Contents(300, 800)
 
@@ -55,7 +52,7 @@ def test_what_else_is_in_it_has_a_tab(more, name):
 
 
 def test_other_methods_have_neither_tensor_nor_bank():
-    other = Contents(300, 800, filters=False, bank=False)
+    other = Contents(300, 800, stages=(OURS[0],), bank=False)
     assert tabs(detection_blueprint(other)) == ["Skyline", "Stages", "Columns"]
 
 

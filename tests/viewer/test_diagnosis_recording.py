@@ -1,13 +1,11 @@
 """A diagnosis as Rerun entities."""
 
-import numpy as np
 import pytest
 
 import skyline_viz as sv
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.skyline import Skyline
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.diagnosis_recording import _smooth as smooth
 from skyline_viz.viewer.diagnosis_recording import log_diagnosis
 from testing import detections
 from testing.injected import cases
@@ -57,8 +55,3 @@ def test_the_viewer_gets_no_line_where_nothing_came_back(hazy, tmp_path, monkeyp
     half = read.last(f"{entities.SEGMENTS}/largest", "Boxes2D:half_sizes").as_py()
     assert [2 * one[0] for one in half] == [lost.length, 6]
     assert diagnosis.markdown().startswith(f"**{lost.cause}")
-
-
-def test_stacked_costs_do_not_droop_at_the_rims():
-    np.testing.assert_allclose(smooth(np.ones(30)), 1)
-    assert len(smooth(np.arange(5.0))) == 5

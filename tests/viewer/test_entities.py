@@ -2,8 +2,9 @@
 
 import re
 
+from skyline_viz.stage import Quantity
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.entities import below, map_of
+from skyline_viz.viewer.entities import below, of_quantity
 
 PATHS = {name: value for name, value in vars(entities).items() if name.isupper()}
 
@@ -22,6 +23,6 @@ def test_no_stage_lies_below_another():
 
 
 def test_maps_and_parents():
-    assert map_of("sky  probability") == "maps/sky__probability"
+    assert of_quantity(Quantity("sky  probability", group="maps")) == "maps/sky__probability"
     assert below(entities.OTHER, entities.SCORE) == "other/score"
     assert below("", entities.SCORE) == entities.SCORE

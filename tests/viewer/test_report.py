@@ -7,7 +7,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.methods.edges_only import EdgesOnly
-from skyline_viz.viewer.report import listed_segments, report, settings_changed
+from skyline_viz.viewer.report import listed_segments, report
 from testing.recordings import scene
 
 
@@ -49,7 +49,8 @@ def test_it_says_how_many_edge_pixels_are_shown(photo):
 
 
 def test_it_says_how_the_detection_was_made(photo):
-    assert "Default settings; filters learned from " in told(sv.Detector().detect(photo))
+    assert "Default settings." in told(sv.Detector().detect(photo))
+    assert "Filters learned from " in told(sv.Detector().detect(photo))
     paper = sv.Detector(config=sv.DetectorConfig.paper()).detect(photo)
     assert "The paper's settings" in told(paper)
     own = sv.Detector(config=sv.DetectorConfig(delta=2, v=0.25)).detect(photo)
@@ -74,6 +75,6 @@ def test_many_segments_are_cut_short():
 
 
 def test_settings_that_differ_are_named():
-    assert settings_changed(sv.DetectorConfig()) == []
+    assert sv.DetectorConfig().changed() == []
     config = replace(sv.DetectorConfig(), clear_sky=0.0)
-    assert settings_changed(config) == ["clear_sky 0.0"]
+    assert config.changed() == ["clear_sky 0.0"]
