@@ -92,14 +92,14 @@ class Open:
 
     def _unread(self) -> list[str]:
         """A sentence about pictures in the folder that cannot be read, where there are any."""
-        from annotate.store.folder import unread_below  # noqa: PLC0415
+        from annotate.store.folder import unread_below
 
         return [unread] if (unread := unread_below(self.folder)) else []
 
     def _serve(self) -> int:
-        from annotate.store.store import Store  # noqa: PLC0415
-        from annotate.work.doubts import read_doubts  # noqa: PLC0415
-        from annotate.work.workbench import Assignment, Workbench  # noqa: PLC0415
+        from annotate.store.store import Store
+        from annotate.work.doubts import read_doubts
+        from annotate.work.workbench import Assignment, Workbench
 
         who = Assignment(
             whoever(self.annotator), self.pass_number, self.order, self.blind, self.seed
@@ -131,8 +131,8 @@ class Open:
 
 def propose_all(bench: Workbench) -> None:
     """Make all proposals that are missing, so that their margins can be compared."""
-    from skyline_viz.running.batch import sentence  # noqa: PLC0415
-    from skyline_viz.running.progress import ProgressBar  # noqa: PLC0415
+    from skyline_viz.running.batch import sentence
+    from skyline_viz.running.progress import ProgressBar
 
     waiting = [one for one in bench.cards() if one.margin is None and one.status == "to do"]
     with ProgressBar(len(waiting), "proposing") as bar:
@@ -146,11 +146,11 @@ def propose_all(bench: Workbench) -> None:
 
 def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
     """Serve the page until Ctrl-C, and print its address."""
-    import uvicorn  # noqa: PLC0415
+    import uvicorn
 
-    from annotate.server.app import make_app  # noqa: PLC0415
-    from skyline_viz.system.loopback import allowed_hosts  # noqa: PLC0415
-    from skyline_viz.viewer.process import has_display  # noqa: PLC0415
+    from annotate.server.app import make_app
+    from skyline_viz.system.loopback import allowed_hosts
+    from skyline_viz.viewer.process import has_display
 
     listener, token = found_again(bench.store, host, port)
     port = listener.getsockname()[1]
@@ -181,7 +181,7 @@ def found_again(store: Store, host: str, port: int) -> tuple[socket.socket, str]
     Raises:
         UsageError: As `bound` does.
     """
-    from annotate.server.address import Address, folder_id, keep_address, kept_address, new_address  # noqa: PLC0415
+    from annotate.server.address import Address, folder_id, keep_address, kept_address, new_address
 
     folder = folder_id(store)
     address = kept_address(folder) or new_address()

@@ -36,7 +36,7 @@ def whoever(name: str) -> str:
     Raises:
         UsageError: There is none, or it is none that can be kept.
     """
-    from annotate.store.labels import check_annotator  # noqa: PLC0415
+    from annotate.store.labels import check_annotator
 
     if name.strip():
         try:
@@ -69,9 +69,9 @@ def locked(folder: Path) -> Iterator[None]:
         UsageError: Another one has it open.
         StoreError: It cannot be written.
     """
-    from filelock import FileLock, Timeout  # noqa: PLC0415
+    from filelock import FileLock, Timeout
 
-    from annotate.store.database import StoreError  # noqa: PLC0415
+    from annotate.store.database import StoreError
 
     lock = FileLock(folder / _LOCK, timeout=0)
     try:
@@ -95,8 +95,8 @@ def opened(folder: Path) -> Iterator[Store]:
         UsageError: There is no such folder, or it has no labels.
         StoreError: They cannot be opened.
     """
-    from annotate.store.database import NAME, holds_something  # noqa: PLC0415
-    from annotate.store.store import Store  # noqa: PLC0415
+    from annotate.store.database import NAME, holds_something
+    from annotate.store.store import Store
 
     if not holds_something(check_folder(folder) / NAME):
         raise UsageError(f"{folder} has no labels yet; make some: {PROGRAM} open {folder}.")

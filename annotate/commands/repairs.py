@@ -17,7 +17,7 @@ class Repair:
 
     def run(self) -> int:
         """Repair; return the exit status."""
-        from annotate.rescue.repair import repair  # noqa: PLC0415
+        from annotate.rescue.repair import repair
 
         with locked(check_folder(self.folder)):
             done = repair(self.folder)

@@ -38,11 +38,11 @@ class Status:
 
     def run(self) -> int:
         """Print a table; return the exit status."""
-        from rich.table import Table  # noqa: PLC0415
+        from rich.table import Table
 
-        from annotate.formats.orphans import gone  # noqa: PLC0415
-        from annotate.store.folder import unread_below  # noqa: PLC0415
-        from annotate.work.joined import joined  # noqa: PLC0415
+        from annotate.formats.orphans import gone
+        from annotate.store.folder import unread_below
+        from annotate.work.joined import joined
 
         with opened(self.folder) as store:
             found = joined(store)
@@ -98,11 +98,11 @@ class Agreement:
 
     def run(self) -> int:
         """Print how far they agree; return the exit status."""
-        from annotate.agreement import WITHIN, paired  # noqa: PLC0415
-        from annotate.agreement import Agreement as Found  # noqa: PLC0415
-        from annotate.agreement import picture as drawn  # noqa: PLC0415
-        from annotate.work.joined import joined  # noqa: PLC0415
-        from skyline_viz.photo import write_photo  # noqa: PLC0415
+        from annotate.agreement import WITHIN, paired
+        from annotate.agreement import Agreement as Found
+        from annotate.agreement import picture as drawn
+        from annotate.work.joined import joined
+        from skyline_viz.photo import write_photo
 
         check_picture(self.picture)
         with opened(self.folder) as store:

@@ -60,8 +60,8 @@ class Export:
 
     def run(self) -> int:
         """Export; return the exit status."""
-        from annotate.formats import export_labels  # noqa: PLC0415
-        from annotate.work.joined import joined  # noqa: PLC0415
+        from annotate.formats import export_labels
+        from annotate.work.joined import joined
 
         out = self.out or Path(f"skylines-{self.format}")
         with opened(self.folder) as store:
@@ -118,7 +118,7 @@ class Import:
 
     def run(self) -> int:
         """Import; return the exit status."""
-        from annotate.store.store import Store  # noqa: PLC0415
+        from annotate.store.store import Store
 
         check_folder(self.folder)
         with closing(Store(self.folder, reading=True)) as store:
@@ -148,9 +148,9 @@ class Import:
 
         Also a sentence for each that cannot, and what is worth knowing.
         """
-        from annotate.formats import FormatError, import_labels  # noqa: PLC0415
-        from annotate.store.contents import Contents  # noqa: PLC0415
-        from annotate.work.importing import checked  # noqa: PLC0415
+        from annotate.formats import FormatError, import_labels
+        from annotate.store.contents import Contents
+        from annotate.work.importing import checked
 
         if not photos:
             raise UsageError(f"{self.folder} holds no photograph.")
@@ -198,7 +198,7 @@ class Backup:
 
     def run(self) -> int:
         """Back up; return the exit status."""
-        from annotate.store.database import backup  # noqa: PLC0415
+        from annotate.store.database import backup
 
         name = check_folder(self.folder).resolve().name or "photos"
         date = datetime.now().astimezone().strftime("%Y-%m-%d-%H%M%S")

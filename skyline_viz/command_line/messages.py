@@ -33,7 +33,7 @@ def tell_row(*cells: str) -> None:
 
 def tell_drawn(*renderables: object, width: int | None = None) -> None:
     """Print what rich draws, such as tables; names in it are made by `names.cell`."""
-    from rich.console import Console  # noqa: PLC0415  # not needed for help
+    from rich.console import Console  # not needed for help
 
     console = Console(highlight=False, markup=False, emoji=False, width=width)
     with console.capture() as captured:  # printed by rich, it would end the program on | head

@@ -64,9 +64,9 @@ class Methods:
             UsageError: Two have one name, or what has learned already is to be trained.
             MethodError: There is none of that name, its file is damaged, or it was not trained.
         """
-        from skyline_viz.method import LearnedMethod  # noqa: PLC0415
-        from skyline_viz.methods.registry import find_method, has_learned  # noqa: PLC0415
-        from skyline_viz.methods.sky_network import SkyNetwork  # noqa: PLC0415
+        from skyline_viz.method import LearnedMethod
+        from skyline_viz.methods.registry import find_method, has_learned
+        from skyline_viz.methods.sky_network import SkyNetwork
 
         if to_train and (file := next(filter(has_learned, self.method), self.bank)):
             raise UsageError(
@@ -103,8 +103,8 @@ class Methods:
 
     def _ours(self) -> Configurable:
         """The detector that bank, preset and settings describe together."""
-        from skyline_viz.detector import Detector  # noqa: PLC0415
-        from skyline_viz.methods.registry import find_method  # noqa: PLC0415
+        from skyline_viz.detector import Detector
+        from skyline_viz.methods.registry import find_method
 
         if self.bank is None:
             return Detector(config=self.config)
@@ -151,8 +151,8 @@ def described(arguments: Sequence[str]) -> Methods:
 
 def _brought(bank: str) -> DetectorConfig:
     """Settings that a bank brings; the default ones of what is none, which is told later."""
-    from skyline_viz.detector import Detector  # noqa: PLC0415
-    from skyline_viz.filter_bank import FilterBankError  # noqa: PLC0415
+    from skyline_viz.detector import Detector
+    from skyline_viz.filter_bank import FilterBankError
 
     try:
         return Detector.load(bank).config

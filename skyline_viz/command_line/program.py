@@ -139,7 +139,7 @@ def _refusal_behind(error: BaseException) -> ValueError | None:
 
 def _status_of(error: Exception) -> int | None:
     """Exit status for an error that has a plain sentence; None for a fault of this program."""
-    from skyline_viz.photo import PhotoError  # noqa: PLC0415  # not needed for help
+    from skyline_viz.photo import PhotoError  # not needed for help
 
     if isinstance(error, ValueError | PhotoError):
         return USAGE

@@ -38,7 +38,7 @@ def limit(megapixels: float) -> None:
 
 def pixels_of(items: Iterable[DatasetItem]) -> list[tuple[DatasetItem, int]]:
     """Photos and their pixels, without those whose header cannot be read."""
-    from skyline_viz.photo import PhotoError, photo_size  # noqa: PLC0415
+    from skyline_viz.photo import PhotoError, photo_size
 
     found = []
     for item in items:
@@ -61,7 +61,7 @@ def foresee(items: Iterable[DatasetItem], workers: int = 1, bytes_a_pixel: int =
     Returns:
         Processes to work in: fewer than usual where they were to be chosen, and would not fit.
     """
-    from skyline_viz.running.batch import chosen_workers  # noqa: PLC0415
+    from skyline_viz.running.batch import chosen_workers
 
     found = pixels_of(items)
     most = photo_limit() * 1e6

@@ -36,7 +36,7 @@ class Truths:
         Raises:
             DatasetError: As `skyline_viz.open_dataset`.
         """
-        from skyline_viz.datasets.layouts import open_dataset  # noqa: PLC0415
+        from skyline_viz.datasets.layouts import open_dataset
 
         return open_dataset(folder, sky=self.sky, terrain=self.terrain)
 

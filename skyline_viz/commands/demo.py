@@ -45,8 +45,8 @@ class Demo:
 
     def run(self) -> int:
         """Detect, record and show; return the exit status."""
-        from skyline_viz.viewer.process import has_display  # noqa: PLC0415  # heavy
-        from skyline_viz.viewer.rerun_internals import ViewerError  # noqa: PLC0415
+        from skyline_viz.viewer.process import has_display  # heavy
+        from skyline_viz.viewer.rerun_internals import ViewerError
 
         inputs = collect(self.photos or [self._samples()])
         output_folder(self.out, (one.item for one in inputs))

@@ -92,7 +92,7 @@ class _Found:
 
 
 def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
-    from skyline_viz.running.warming import warm_up  # noqa: PLC0415
+    from skyline_viz.running.warming import warm_up
 
     pixels = photo.item.photo()
     warm_up()
@@ -105,10 +105,10 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
         files.append(path.with_name(f"{photo.name}.json"))
         found.skyline.write_json(files[-1])
     if options.mask or options.overlay:
-        import numpy as np  # noqa: PLC0415
+        import numpy as np
 
-        from skyline_viz.overlay import draw_overlay  # noqa: PLC0415
-        from skyline_viz.photo import write_photo  # noqa: PLC0415
+        from skyline_viz.overlay import draw_overlay
+        from skyline_viz.photo import write_photo
 
         if options.mask:
             files.append(path.with_name(f"{photo.name}-mask.png"))

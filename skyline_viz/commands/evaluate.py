@@ -73,7 +73,7 @@ class Evaluate(OnTruth):
         (one,) = chosen
         if self.methods.method or self.methods.network:
             return chosen, f"{one.name}, {folds or 'as it is'}"
-        from skyline_viz.detector import Detector  # noqa: PLC0415
+        from skyline_viz.detector import Detector
 
         assert isinstance(one, Detector)
         learned = one.bank.provenance.dataset

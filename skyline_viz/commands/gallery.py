@@ -141,7 +141,7 @@ def build(
     beside: Method | None = None,
 ) -> tuple[list[Entry], list[Failure]]:
     """Bring a gallery up to date, and return its photos, the worst first, and those that failed."""
-    from skyline_viz.gallery.store import Gallery, by_need  # noqa: PLC0415
+    from skyline_viz.gallery.store import Gallery, by_need
 
     entries: list[Entry] = []
     failures: list[Failure] = []
@@ -157,8 +157,8 @@ def build(
 
 def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: Cause | None = None) -> None:
     """Serve a gallery, in a window where there is a display, until it is closed or Ctrl-C."""
-    from skyline_viz.gallery.flag_page import flag_page  # noqa: PLC0415
-    from skyline_viz.viewer.process import has_display, open_viewer  # noqa: PLC0415
+    from skyline_viz.gallery.flag_page import flag_page
+    from skyline_viz.viewer.process import has_display, open_viewer
 
     with (
         _served(out, entries, cause) as gallery,
@@ -184,7 +184,7 @@ def show_picture(
     out: Path, entries: Sequence[Entry], path: Path, cause: Cause | None = None
 ) -> None:
     """Draw the cards of a gallery into a file."""
-    from skyline_viz.viewer.process import save_picture  # noqa: PLC0415
+    from skyline_viz.viewer.process import save_picture
 
     with _served(out, entries, cause) as gallery:
         save_picture(gallery.address, path, PICTURE)
@@ -205,8 +205,8 @@ def change_flags(
     Returns:
         The names of the photos.
     """
-    from skyline_viz.gallery import flags  # noqa: PLC0415
-    from skyline_viz.gallery.store import Gallery  # noqa: PLC0415
+    from skyline_viz.gallery import flags
+    from skyline_viz.gallery.store import Gallery
 
     gone = dict.fromkeys(flags.read_flags(_existing(out)), "")
     entries = Gallery(out).entries().values()
@@ -231,7 +231,7 @@ def list_flags(out: Path, names: Sequence[str] | None = None) -> int:
         out: Folder of the gallery.
         names: The photos; those that are reviewed or commented unless given.
     """
-    from skyline_viz.gallery.flags import Flag, read_flags  # noqa: PLC0415
+    from skyline_viz.gallery.flags import Flag, read_flags
 
     flags = read_flags(_existing(out))
     for name in flags if names is None else names:
@@ -249,8 +249,8 @@ def _existing(out: Path) -> Path:
 
 @contextmanager
 def _served(out: Path, entries: Sequence[Entry], cause: Cause | None) -> Iterator[ServedGallery]:
-    from skyline_viz.gallery.store import Gallery  # noqa: PLC0415
-    from skyline_viz.gallery.table import served  # noqa: PLC0415
+    from skyline_viz.gallery.store import Gallery
+    from skyline_viz.gallery.table import served
 
     truth = any(entry.verdict.a_err is not None for entry in entries)
     with served(Gallery(out), entries, truth, cause) as gallery:

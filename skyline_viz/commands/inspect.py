@@ -152,7 +152,7 @@ class Inspect:
         chosen = [f"--{name}" for name in named if getattr(self, name)]
         if len(chosen) > 1:
             raise UsageError(f"{' and '.join(chosen)} exclude each other.")
-        from skyline_viz.viewer.process import has_display  # noqa: PLC0415  # the viewer is heavy
+        from skyline_viz.viewer.process import has_display  # the viewer is heavy
 
         if not chosen and not has_display():
             raise UsageError(
@@ -161,8 +161,8 @@ class Inspect:
             )
 
     def _using(self, inputs: Sequence[NamedItem], failures: list[Failure]) -> _Using:
-        from skyline_viz.detector import Detector  # noqa: PLC0415
-        from skyline_viz.viewer.method_recording import COLOURS  # noqa: PLC0415
+        from skyline_viz.detector import Detector
+        from skyline_viz.viewer.method_recording import COLOURS
 
         named = len(self.methods.method) + (self.methods.network is not None) + self.methods.ours
         if named > 1 + len(COLOURS):
@@ -200,10 +200,10 @@ class Inspect:
         failures: list[Failure],
     ) -> list[Path]:
         """Write the recordings, and return their files."""
-        from skyline_viz.photo import PhotoError  # noqa: PLC0415
-        from skyline_viz.system.names import recording_id  # noqa: PLC0415
-        from skyline_viz.viewer.contents import fidelity_of  # noqa: PLC0415
-        from skyline_viz.viewer.recording import new_recording  # noqa: PLC0415
+        from skyline_viz.photo import PhotoError
+        from skyline_viz.system.names import recording_id
+        from skyline_viz.viewer.contents import fidelity_of
+        from skyline_viz.viewer.recording import new_recording
 
         of_a_photo = (PhotoError, ValueError, MemoryError)  # what the other photos survive
         groups = [[one] for one in inputs] if self.split else [list(inputs)]
@@ -238,12 +238,12 @@ class Inspect:
         fidelity: Fidelity,
     ) -> Contents:
         """Log a photo of `together` ones, and say what the recording now holds."""
-        from skyline_viz.detector import FilterDetection  # noqa: PLC0415
-        from skyline_viz.running.warming import warm_up  # noqa: PLC0415
-        from skyline_viz.viewer.bank_recording import log_path_bins  # noqa: PLC0415
-        from skyline_viz.viewer.comparison import log_comparison  # noqa: PLC0415
-        from skyline_viz.viewer.contents import Contents  # noqa: PLC0415
-        from skyline_viz.viewer.recording import log_detection  # noqa: PLC0415
+        from skyline_viz.detector import FilterDetection
+        from skyline_viz.running.warming import warm_up
+        from skyline_viz.viewer.bank_recording import log_path_bins
+        from skyline_viz.viewer.comparison import log_comparison
+        from skyline_viz.viewer.contents import Contents
+        from skyline_viz.viewer.recording import log_detection
 
         photo, truth = one.item.photo(), self._truth_of(one)
         warm_up()
@@ -308,7 +308,7 @@ class Inspect:
         return given.truth()
 
     def _lay_out(self, recording: rr.RecordingStream, contents: Contents | None) -> None:
-        from skyline_viz.viewer.blueprints import detection_blueprint  # noqa: PLC0415
+        from skyline_viz.viewer.blueprints import detection_blueprint
 
         if contents is None:
             raise _Nothing
@@ -316,7 +316,7 @@ class Inspect:
 
     def _show(self, files: list[Path]) -> None:
         """Show recordings, and return when nobody looks any more."""
-        from skyline_viz.viewer import process as viewer  # noqa: PLC0415
+        from skyline_viz.viewer import process as viewer
 
         if self.headless:
             tell(f"{counted(len(files), 'recording')} made.")
@@ -330,7 +330,7 @@ class Inspect:
         elif self.connect:
             viewer.send(files, self.connect)
         elif self.serve:
-            from skyline_viz.viewer.web_viewer import served  # noqa: PLC0415
+            from skyline_viz.viewer.web_viewer import served
 
             with served(files) as address, suppress(KeyboardInterrupt):
                 tell(f"Open {address} in a browser. Ctrl-C ends.")

@@ -27,8 +27,8 @@ def log_diagnosis(
     recording: rr.RecordingStream, found: Detection, truth: Skyline, name: str
 ) -> Diagnosis:
     """Find out why a detection went wrong, and log it where it did."""
-    from skyline_viz.diagnosis.diagnosing import diagnose  # noqa: PLC0415
-    from skyline_viz.viewer.diagnosis_recording import log_diagnosis as log_it  # noqa: PLC0415
+    from skyline_viz.diagnosis.diagnosing import diagnose
+    from skyline_viz.viewer.diagnosis_recording import log_diagnosis as log_it
 
     diagnosis = diagnose(found, truth)
     if not diagnosis.right:
@@ -46,8 +46,8 @@ def log_methods(
     """Detect with other methods and log it; return what the recording now holds of them."""
     if not methods:
         return ()
-    from skyline_viz.viewer.contents import MethodContents  # noqa: PLC0415
-    from skyline_viz.viewer.method_recording import log_methods as log_them  # noqa: PLC0415
+    from skyline_viz.viewer.contents import MethodContents
+    from skyline_viz.viewer.method_recording import log_methods as log_them
 
     for method in methods:  # the first time includes loading compiled loops
         method.detect(found.photo[:_WARM, :_WARM].copy())
@@ -60,7 +60,7 @@ def begin_sweeps(
     recording: rr.RecordingStream, found: FilterDetection, sizes: Sequence[FilterBank]
 ) -> list[Sweep]:
     """Choose what to sweep; what is logged from now on is there on all of the timelines."""
-    from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep  # noqa: PLC0415
+    from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
 
     sweeps = setting_sweeps(found)
     if sizes:
@@ -79,7 +79,7 @@ def log_sweeps(
     truth: Skyline | None,
 ) -> None:
     """Detect with all values, and log it."""
-    from skyline_viz.viewer.sweep_recording import log_sweeps as log_them  # noqa: PLC0415
+    from skyline_viz.viewer.sweep_recording import log_sweeps as log_them
 
     with ProgressBar(sum(len(sweep.steps) for sweep in sweeps), "values") as bar:
         log_them(recording, sweeps, found, truth, bar.advance)

@@ -69,8 +69,8 @@ class Train:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
         items = with_truth(dataset)
         output_folder(self.out.parent, ())
-        from skyline_viz.detector import Detector  # noqa: PLC0415
-        from skyline_viz.methods.registry import find_method, has_learned  # noqa: PLC0415
+        from skyline_viz.detector import Detector
+        from skyline_viz.methods.registry import find_method, has_learned
 
         if has_learned(self.method):
             raise UsageError(
@@ -110,7 +110,7 @@ class Train:
         return status_after(failures)
 
     def _pretrained(self, method: Configurable) -> Configurable:
-        from skyline_viz.methods.parsing import SceneParsing  # noqa: PLC0415
+        from skyline_viz.methods.parsing import SceneParsing
 
         if not isinstance(method, SceneParsing):
             raise UsageError(f"--pretrained is for FCNs and SegNet, not for {method.name}.")
@@ -119,8 +119,8 @@ class Train:
     def _train_method(
         self, dataset: str, items: Sequence[DatasetItem], method: Configurable
     ) -> int:
-        from skyline_viz.method import Learner  # noqa: PLC0415
-        from skyline_viz.methods.registry import Trained, save_method  # noqa: PLC0415
+        from skyline_viz.method import Learner
+        from skyline_viz.methods.registry import Trained, save_method
 
         if self.training != TrainingConfig():
             raise UsageError(f"--preset and --training are for our filter bank, not {self.method}.")

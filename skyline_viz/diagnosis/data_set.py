@@ -8,10 +8,9 @@ from functools import partial
 import numpy as np
 
 from skyline_viz.datasets.item import photo_and_truth
-from skyline_viz.detector import FilterDetection
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.diagnosis.record import Diagnosed, pack, unpack
-from skyline_viz.diagnosis.remedies import Remedy, try_remedies
+from skyline_viz.diagnosis.remedies import try_remedies
 from skyline_viz.evaluation.metrics import column_errors
 from skyline_viz.evaluation.tasks import PhotoTask, run_tasks
 from skyline_viz.running.batch import Failure
@@ -65,7 +64,5 @@ def diagnose_photo(tolerance: float | None, task: PhotoTask, *, remedies: bool) 
     detection = task.method.detect(photo)
     found = diagnose(detection, truth, tolerance)
     errors = column_errors(detection.skyline, truth)
-    tried: tuple[Remedy, ...] = ()
-    if remedies and isinstance(detection, FilterDetection):
-        tried = try_remedies(detection, truth, found)
+    tried = try_remedies(detection, truth, found) if remedies else ()
     return Diagnosed(task.name, float(np.nanmean(errors)), found, tried)
