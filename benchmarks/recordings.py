@@ -22,8 +22,8 @@ from pathlib import Path
 from skyline_viz import Detector
 from skyline_viz.command_line.inputs import collect
 from skyline_viz.gallery.store import Gallery
-shots = collect([Path(sys.argv[1])])[:int(sys.argv[2])]
-done = sum(1 for _ in Gallery(Path(sys.argv[3])).build(shots, Detector(), workers=1))
+photos = collect([Path(sys.argv[1])])[:int(sys.argv[2])]
+done = sum(1 for _ in Gallery(Path(sys.argv[3])).build(photos, Detector(), workers=1))
 status = Path("/proc/self/status").read_text()
 print(done, status.split("VmHWM:")[1].split()[0])
 """

@@ -62,7 +62,7 @@ class Seen:
     """The settings, which hold the weights."""
 
     bank: FilterBank
-    """The filter bank, which holds the sky or terrain model."""
+    """The filter bank, which holds the terrain model."""
 
 
 def score(seen: Seen) -> EdgeTerm:
@@ -214,12 +214,13 @@ class CostModel:
 
         The path search goes down columns, so a column lies together in memory.
         """
-        across = np.full(self.edges.shape, self["no edge"].weight, np.float32)
+        no_edge = self["no edge"]
+        across = np.full(self.edges.shape, no_edge.weight, np.float32)
         # thrice as fast as across[edges]
         across.ravel()[np.flatnonzero(self.edges)] = self._of_edges()
         cost: F32 = cv2.transpose(across).T  # by tiles: numpy's own copy misses the cache
         for term in self.nodal:
-            if term.paid_by == "all" and term.weight:
+            if term.paid_by != "edges" and term is not no_edge and term.weight:
                 term.add(cost)
         return cost
 

@@ -227,7 +227,11 @@ def solve_detection(
         non_edge_cost: Nodal cost of a pixel that is no candidate.
         score_weight: What a score of 0 costs more than one of 1.
         maps: Further maps ``(H, W)`` to show, by name.
+
+    Raises:
+        ValueError: A map is called like a stage that every detection has, or like another map.
     """
+    _check_names(maps or {})
     with timed(seconds, "path"):
         path = shortest_path(cost, delta, link_weight)
     rows, columns = edge_pixels(edges)
@@ -261,3 +265,17 @@ def timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
     start = perf_counter()
     yield
     seconds[stage] = seconds.get(stage, 0.0) + perf_counter() - start
+
+
+def _check_names(maps: Mapping[str, F32]) -> None:
+    """Refuse maps that would take the place of a stage, or of each other.
+
+    Raises:
+        ValueError: The message names the map.
+    """
+    taken = {one.name for one in (EDGES, SCORE, COST, PATH)}
+    for name in maps:
+        plain = name.replace(" ", "_")
+        if plain in taken:
+            raise ValueError(f"a map cannot be called {name}: there is a stage or map of that name")
+        taken.add(plain)

@@ -1,7 +1,7 @@
 """Reading photographs safely: any common format in, ``(H, W, 3)`` uint8 RGB out.
 
-What a file is, `skyline_viz.photo_kinds` tells. How its bytes become pixels is written in
-`skyline_viz.photo_decoding`.
+What a file is, `picture_files.kinds` tells. How its bytes become pixels is written in
+`picture_files.decoding`.
 """
 
 import contextlib

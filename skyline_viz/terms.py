@@ -62,7 +62,7 @@ class Term:
 
     def of_edges(self) -> npt.NDArray[np.floating]:
         """What each edge pixel pays, ``(n,)`` row by row, where no other pixels do."""
-        return np.zeros(np.count_nonzero(self.edges), np.float32)
+        return self.map()[self.edges]
 
     def map(self) -> F32:
         """What each pixel pays, ``(H, W)``."""

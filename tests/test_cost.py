@@ -1,6 +1,6 @@
 """Nodal costs: the formula at edges, the constant elsewhere, and what a model tells of itself."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import skyline_viz as sv
 from skyline_viz.cost import TERMS, CostModel, normalised
 from skyline_viz.rendering import render
-from skyline_viz.terms import ClearSky, EdgeTerm, Link, NoEdge
+from skyline_viz.terms import ClearSky, EdgeTerm, Link, NoEdge, Term
 from testing.examples import examples
 
 STEADY = examples(60)
@@ -142,7 +142,7 @@ def test_a_weight_of_zero_takes_a_term_away(found):
 
 def test_the_settings_are_fields_of_the_configuration(found):
     settings = found.cost_model.settings
-    assert settings == ("v", "non_edge_cost", "clear_sky", "terrain_weight", "link_weight")
+    assert {"v", "non_edge_cost", "clear_sky", "terrain_weight", "link_weight"} <= set(settings)
     assert all(hasattr(found.config, one) for one in settings)
 
 
@@ -175,3 +175,24 @@ def test_more_edges_cost_what_a_photo_with_them_would(seed, at_the_rim):
 def test_a_typical_score_saves_what_lower_ones_lack(found):
     saved = found.cost_model.saved(float32(0.2, 0.7, 0.9), 0.7)
     np.testing.assert_allclose(saved, [found.config.v * 0.5, 0, 0], atol=1e-6)
+
+
+@pytest.mark.parametrize("who", ["edges", "others", "all"])
+def test_the_cost_is_the_sum_of_its_terms_whoever_pays(found, who):
+    @dataclass(frozen=True, eq=False, kw_only=True)
+    class Own(Term):
+        """A term that says in `add` alone what is paid."""
+
+        paid_by = who
+
+        def add(self, cost):
+            pays = {"edges": self.edges, "others": ~self.edges, "all": True}[who]
+            cost += np.where(pays, np.float32(self.weight), np.float32(0))
+
+    own = Own(name="own", weight=0.75, edges=found.edges)
+    model = replace(found.cost_model, nodal=(*found.cost_model.nodal, own))
+    parts = sum(term.map().astype(np.float64) for term in model.nodal)
+    np.testing.assert_allclose(model.total(), parts, atol=1e-4)
+    rows = found.skyline.rows.astype(np.int32)
+    nodal = sum(paid for name, paid in model.split(rows).items() if name != "link")
+    np.testing.assert_allclose(nodal, model.total()[rows, np.arange(len(rows))], atol=1e-4)

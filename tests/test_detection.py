@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from skyline_viz.config import DetectorConfig
+from skyline_viz.detection import solve_detection
 from skyline_viz.detector import Detector
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.score import score_at
@@ -105,3 +106,14 @@ def test_the_arrays_of_a_detection_are_frozen_but_not_the_photo():
     for name in ("edges", "edge_rows", "strength", "bins", "scores", "cost"):
         assert not getattr(detection, name).flags.writeable, name
     assert photo.flags.writeable
+
+
+@pytest.mark.parametrize("names", [("cost",), ("score",), ("sky prob", "sky_prob")])
+def test_a_map_never_takes_the_place_of_a_stage_or_of_another_map(names):
+    cost = np.zeros((6, 8), np.float32)
+    maps = dict.fromkeys(names, cost)
+    with pytest.raises(ValueError, match=f"a map cannot be called {names[-1]}: there is"):
+        solve_detection(
+            "own", np.zeros((6, 8, 3), np.uint8), cost == 0, cost.ravel(), cost, {},
+            delta=1, link_weight=0.0, non_edge_cost=1.0, maps=maps,
+        )  # fmt: skip

@@ -225,8 +225,14 @@ class Workbench:
         return changed
 
     def overlays(self) -> tuple[str, ...]:
-        """What can be laid over a photo: stages and terms of what proposes, the same for all."""
-        return images.overlays(self.detector.detect(_SMALL))
+        """What can be laid over a photo: stages and terms of what proposes, the same for all.
+
+        Of a method that refuses so small a photo only the stages that all methods have are known.
+        """
+        try:
+            return images.overlays(self.detector.detect(_SMALL))
+        except Exception:  # of somebody's own method; what is wrong is said where it proposes
+            return ("edges", "score", "cost")
 
     def detection(self, photo: int) -> Detection:
         """All stages of a photo, by the detector that made its proposal.

@@ -8,7 +8,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from threading import Event
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
@@ -242,7 +242,7 @@ class Inspect:
         from skyline_viz.running.warming import warm_up
         from skyline_viz.viewer.bank_recording import log_path_bins
         from skyline_viz.viewer.comparison import log_comparison
-        from skyline_viz.viewer.contents import Contents
+        from skyline_viz.viewer.contents import Contents, MethodContents
         from skyline_viz.viewer.recording import log_detection
 
         photo, truth = one.item.photo(), self._truth_of(one)
@@ -256,9 +256,12 @@ class Inspect:
         if self.sweep and ours:
             sweeps = inspect_more.begin_sweeps(recording, ours, using.sizes)
         verdict = log_detection(recording, found, truth, name=one.name, fidelity=fidelity)
+        compared: dict[str, Any] = {}
         if using.other:
             second = using.other.detect(photo)
             log_comparison(recording, found, second, truth, second.method, fidelity)
+            held = MethodContents.of(second)
+            compared = {"compared": held.name, "compared_stages": held.stages}
         methods = inspect_more.log_methods(recording, found, using.methods, truth, fidelity)
         diagnosis = None
         if alone and truth is not None and truth.visible.any():
@@ -280,7 +283,7 @@ class Inspect:
             diagnosed=diagnosis is not None and not diagnosis.right,
             path_bins=alone and ours is not None,
             photos=together,
-            compared=using.other.name if using.other else "",
+            **compared,
             methods=methods,
             swept=sweeps[0].timeline if sweeps else "",
         )

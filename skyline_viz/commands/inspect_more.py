@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from skyline_viz.command_line.messages import tell
@@ -50,7 +51,8 @@ def log_methods(
     from skyline_viz.viewer.method_recording import log_methods as log_them
 
     for method in methods:  # the first time includes loading compiled loops
-        method.detect(found.photo[:_WARM, :_WARM].copy())
+        with suppress(Exception):  # it may refuse so small a photo, and is asked again below
+            method.detect(found.photo[:_WARM, :_WARM].copy())
     others = [method.detect(found.photo) for method in methods]
     log_them(recording, found, others, truth, fidelity)
     return tuple(MethodContents.of(one) for one in others)

@@ -133,7 +133,7 @@ class Gallery:
 
     def build(
         self,
-        shots: Sequence[NamedItem],
+        photos: Sequence[NamedItem],
         method: Method,
         beside: Method | None = None,
         workers: int = 0,
@@ -141,7 +141,7 @@ class Gallery:
         """Detect and record what is not there yet; yield each photo's entry, or why it failed.
 
         Args:
-            shots: The photos.
+            photos: The photos.
             method: What detects.
             beside: A second method, to compare with.
             workers: Number of processes, see `batch.run`.
@@ -152,8 +152,8 @@ class Gallery:
         known = self.entries()
         digests = [digest_of_method(one, str(VERSION)) for one in (method, beside) if one]
         looks = _Looks(method, beside, "".join(digests))
-        tasks = [_Task(shot.name, shot.item, known.get(shot.name)) for shot in shots]
-        entries = {shot.name: known[shot.name] for shot in shots if shot.name in known}
+        tasks = [_Task(one.name, one.item, known.get(one.name)) for one in photos]
+        entries = {one.name: known[one.name] for one in photos if one.name in known}
         saved = monotonic()
         try:
             for outcome in run(partial(_work, self, looks), tasks, workers=workers):

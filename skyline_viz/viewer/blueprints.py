@@ -190,7 +190,8 @@ def _sweep_tab(contents: Contents) -> rrb.Container:
 
 def _compare_tab(contents: Contents) -> rrb.Container:
     views = []
-    stages = [one for one in contents.stages if "Stages" in one.tabs and not one.group]
+    both = dict.fromkeys([*contents.stages, *contents.compared_stages])
+    stages = [one for one in both if "Stages" in one.tabs and one.group != "tensor"]
     for one in stages:
         title, stage = one.word or one.name, entities.of_quantity(one)
         views += [

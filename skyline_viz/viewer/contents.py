@@ -41,10 +41,8 @@ class MethodContents:
 
     @classmethod
     def of(cls, detection: Detection) -> MethodContents:
-        """What a recording holds of a detection; where all pixels are edges, none are shown."""
-        everywhere = bool(detection.edges.all())
-        shown = [one for one in _shown(detection) if not (everywhere and one.name == "edges")]
-        return cls(detection.method, tuple(shown))
+        """What a recording holds of a detection."""
+        return cls(detection.method, _shown(detection))
 
 
 @dataclass(frozen=True)
@@ -88,6 +86,9 @@ class Contents:
     compared: str = ""
     """Name of the second detection; nothing without one."""
 
+    compared_stages: tuple[Quantity, ...] = OURS
+    """Its stages, in their order."""
+
     methods: tuple[MethodContents, ...] = ()
     """Other methods on the photo."""
 
@@ -111,4 +112,7 @@ class Contents:
 
 
 def _shown(detection: Detection) -> tuple[Quantity, ...]:
-    return tuple(one.quantity for one in detection.stages.values() if one.quantity.tabs)
+    """Stages that have a view: where all pixels are edges, there is nothing to see in these."""
+    everywhere = bool(detection.edges.all())
+    stages = [one.quantity for one in detection.stages.values() if one.quantity.tabs]
+    return tuple(one for one in stages if not (everywhere and one.name == "edges"))

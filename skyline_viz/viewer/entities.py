@@ -34,8 +34,6 @@ COST = "cost"
 DETOUR = "detour"
 """Stage 6: how much dearer the cheapest path through a pixel is: its min-marginal less the best."""
 
-MAPS = "maps"
-"""`MAPS`/NAME: further maps of another method, such as its dense scores."""
 
 TERMS = "terms"
 """`TERMS`/NAME: what each pixel pays for one term of the nodal cost."""

@@ -111,8 +111,10 @@ def log_terms(
 
 
 def shown_terms(detection: Detection) -> list[Term]:
-    """The terms of the nodal cost that are not switched off."""
-    return [term for term in detection.cost_model.nodal if term.weight]
+    """The terms of the nodal cost that are not switched off, and that any pixel pays."""
+    nobody = "others" if detection.edges.all() else ""
+    nodal = detection.cost_model.nodal
+    return [term for term in nodal if term.weight and term.paid_by != nobody]
 
 
 def encoded_edges(edges: Bool) -> rr.EncodedImage:

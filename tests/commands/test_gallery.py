@@ -43,8 +43,8 @@ def built(tmp_path_factory):
     photo[30:] = 60
     for name in "abc":
         sv.write_photo(folder / f"{name}.png", photo)
-    shots = [NamedItem(name, DatasetItem(name, folder / f"{name}.png")) for name in "abc"]
-    list(Gallery(folder / "g").build(shots, sv.Detector(), workers=1))
+    photos = [NamedItem(name, DatasetItem(name, folder / f"{name}.png")) for name in "abc"]
+    list(Gallery(folder / "g").build(photos, sv.Detector(), workers=1))
     return folder / "g"
 
 

@@ -44,7 +44,7 @@ def banks():
 def test_the_present_value_is_among_the_steps_and_gives_the_present_path(config):
     found = sv.Detector(config=config).detect(scene()[0])
     sweeps = setting_sweeps(found)
-    assert [sweep.timeline for sweep in sweeps] == list(SETTINGS)
+    assert {sweep.timeline for sweep in sweeps} >= set(SETTINGS)
     for sweep in sweeps:
         places = [step.at for step in sweep.steps]
         assert places == sorted(set(places))

@@ -26,9 +26,9 @@ def built(tmp_path_factory):
     photo = np.full((60, 70, 3), 200, np.uint8)
     photo[30:] = 60
     sv.write_photo(folder / "a.png", photo)
-    shots = [NamedItem(name, DatasetItem(name, folder / "a.png")) for name in NAMES]
+    photos = [NamedItem(name, DatasetItem(name, folder / "a.png")) for name in NAMES]
     gallery = Gallery(folder / "g")
-    return gallery, list(gallery.build(shots, sv.Detector(), workers=1))
+    return gallery, list(gallery.build(photos, sv.Detector(), workers=1))
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 import pytest
 
-from skyline_viz.stage import OURS
+from skyline_viz.stage import OURS, Quantity
 from skyline_viz.viewer.blueprints import detection_blueprint, stages_blueprint
 from skyline_viz.viewer.contents import Contents, MethodContents
 
@@ -73,3 +73,11 @@ def test_the_stages_of_another_detector_are_shown_by_their_names():
 def test_wide_photos_have_room_for_two_views_side_by_side(width, columns):
     stages = detection_blueprint(Contents(300, width)).root_container.contents[1]
     assert stages.grid_columns == columns
+
+
+def test_the_second_of_two_methods_shows_stages_that_the_first_has_not():
+    probability = Quantity("sky probability", group="maps")
+    contents = Contents(300, 800, compared="own", compared_stages=(*OURS[:1], probability))
+    tab = detection_blueprint(contents).root_container.contents[-1]
+    assert tab.name == "Compare"
+    assert "+ /other/maps/sky_probability" in origins(tab)

@@ -33,6 +33,9 @@ def test_other_methods_have_no_bank_and_where_all_pixels_are_edges_none_are_show
     assert not Contents.of(found, "full").bank
     assert found.edges.all()
     assert "edges" not in {one.name for one in MethodContents.of(found).stages}
+    full = Contents.of(found, "full")
+    assert "edges" not in {one.name for one in full.stages}
+    assert "no edge" not in {one.name for one in full.terms}
 
 
 def test_how_much_is_kept_goes_by_the_pixels():

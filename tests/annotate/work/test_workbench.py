@@ -1,9 +1,11 @@
 """A folder at work: the order of its photos, and which of them are blind."""
 
+from dataclasses import dataclass
+
 import pytest
 
 from annotate.commands.open import propose_all
-from testing.labelling import workbench, write_hills
+from testing.labelling import DETECTOR, workbench, write_hills
 
 
 @pytest.fixture
@@ -35,3 +37,18 @@ def test_random_orders_and_blind_shares_are_seeded(tmp_path):
     assert first != second
     assert order(0)[0] == first
     assert 2 <= len(blind) <= 10
+
+
+def test_a_method_that_refuses_small_photos_lets_the_page_begin(folder):
+    @dataclass(frozen=True)
+    class Large:
+        name: str = "large"
+
+        def detect(self, photo):
+            if photo.shape[1] < 100:
+                raise ValueError("too small")
+            return DETECTOR.detect(photo)
+
+    bench = workbench(folder, detector=Large())
+    assert bench.overlays() == ("edges", "score", "cost")
+    bench.close()
