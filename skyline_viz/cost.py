@@ -205,6 +205,11 @@ class CostModel:
         """The fields of `DetectorConfig` that weigh the terms, each once."""
         return tuple(dict.fromkeys(term.setting for term in self.terms if term.setting))
 
+    def __repr__(self) -> str:
+        """One line, as a console shows it."""
+        terms = ", ".join(f"{term.name} {term.weight:g}" for term in self.terms)
+        return f"CostModel({terms})"
+
     def __getitem__(self, name: str) -> Term:
         """The term of the nodal cost with a name."""
         return next(term for term in self.nodal if term.name == name)

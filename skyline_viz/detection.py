@@ -130,6 +130,14 @@ class Detection:
         yield Stage(COST, self.cost, "photo", dense=partial(self.cost_model.shown, self.cost))
         yield Stage(PATH, self.skyline.rows, "columns")
 
+    def __repr__(self) -> str:
+        """One line, as a console shows it."""
+        height, width = self.edges.shape
+        return (
+            f"{type(self).__name__}(method={self.method!r}, photo of {width} x {height} pixels, "
+            f"{len(self.scores):,} edge pixels, path cost {self.path_cost:.6g})"
+        )
+
     def again(self, config: DetectorConfig) -> Detection:
         """Find the skyline of the same photo with other settings, see `Detector.again`.
 

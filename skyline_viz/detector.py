@@ -34,7 +34,7 @@ FILTERS = "filters"
 """What our detector is called as a method in the header of a file."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class FilterDetection(Detection):
     """What our detector found, and every stage that led to it."""
 

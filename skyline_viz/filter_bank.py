@@ -97,6 +97,13 @@ class FilterBank:
     provenance: Provenance = field(default_factory=Provenance)
     """What the bank was trained on."""
 
+    def __repr__(self) -> str:
+        """One line, as a console shows it."""
+        side = self.filters.shape[-1]
+        made = self.provenance
+        learned = f", learned from {made.images} photos of {made.dataset}" if made.images else ""
+        return f"FilterBank({len(self.filters)} filters of {side} x {side} pixels{learned})"
+
     def __post_init__(self) -> None:
         """Check and freeze the arrays."""
         filters = np.array(self.filters, np.float32)

@@ -44,6 +44,12 @@ class Skyline:
     visible: Bool = None  # type: ignore[assignment]
     """``(W,)`` False where the line cannot be seen or is not labelled; all True unless given."""
 
+    def __repr__(self) -> str:
+        """One line, as a console shows it."""
+        rows = f"rows {self.rows.min():g} to {self.rows.max():g}" if self.width else "no rows"
+        hidden = self.width - int(np.count_nonzero(self.visible))
+        return f"Skyline({self.width} columns, {rows}{f', {hidden} not visible' if hidden else ''})"
+
     def __post_init__(self) -> None:
         """Convert, check and freeze the arrays."""
         try:

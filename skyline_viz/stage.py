@@ -98,6 +98,12 @@ class Stage:
             return self.dense()
         return self.values if self.where in ("mask", "photo") else None
 
+    def __repr__(self) -> str:
+        """One line, as a console shows it."""
+        shape = " x ".join(map(str, self.values.shape))
+        unit = f" in {self.unit}" if self.unit else ""
+        return f"Stage({self.name!r}, {shape} {self.values.dtype}{unit}, {self.where})"
+
     @property
     def name(self) -> str:
         """Its name."""

@@ -58,6 +58,14 @@ def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[NamedIt
     return [NamedItem(name, item) for name, item in zip(names, items, strict=True)]
 
 
+def no_photos(methods: Sequence[str]) -> str:
+    """What to say where no photo was named: it may stand where methods are named."""
+    swallowed = next((text for text in methods[1:] if Path(text).exists()), None)
+    if swallowed is None:
+        return "which photos? Name at least one photo or folder."
+    return f"{swallowed} was taken for a method; name photos before --method."
+
+
 def output_names(items: Sequence[DatasetItem]) -> list[str]:
     """A name for the outputs of each photo: its stem, and more only where stems clash.
 

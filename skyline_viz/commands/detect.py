@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
-from skyline_viz.command_line.inputs import collect, output_folder
+from skyline_viz.command_line.inputs import collect, no_photos, output_folder
 from skyline_viz.command_line.messages import UsageError, counted, status_after, tell
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import Folder, Switch
@@ -58,7 +58,7 @@ class Detect:
     def run(self) -> int:
         """Detect all photos; return the exit status."""
         if not self.photos:
-            raise UsageError("which photos? Name at least one photo or folder.")
+            raise UsageError(no_photos(self.methods.method))
         inputs = collect(self.photos)
         detector = self.methods.one()
         output_folder(self.out, (one.item for one in inputs))

@@ -42,6 +42,8 @@ class Evaluation:
         table = terminal.drawn(terminal.methods_table(self.results), width=110)
         return "\n".join([table, *map(str, self.failures)])
 
+    __repr__ = __str__
+
     def _repr_html_(self) -> str:
         """The same for a notebook."""
         return terminal.methods_html(self.results, [str(one) for one in self.failures])

@@ -128,6 +128,7 @@ def about(entry: Entry) -> tuple[str, str]:
         verdict += [f"A_err {entry.verdict.a_err:.2f} px", *(entry.causes or ())]
         details.append(f"wrong {entry.wrong}" if entry.wrong else "no column wrong")
     details.append(f"margin {entry.verdict.margin:.2f} at {entry.verdict.unsure_column}")
+    details.append(f"by {printable(entry.method)}")
     return " · ".join(verdict), " · ".join(details)
 
 

@@ -105,7 +105,7 @@ def served(
         table.append(**_columns(entries, flags, photos))
         cards = folder / "cards.rbl"
         compared = next((entry.compared for entry in entries), "")
-        _cards(parts.tables, truth, cause, compared).save(_TABLE, cards)
+        _cards(parts.tables, truth, cause, entries[0].method, compared).save(_TABLE, cards)
         table.register_blueprint(cards.as_uri())
         address = f"{server.url()}/entry/{table.id}"
         yield ServedGallery(address, gallery, entries, flags, photos, table, client)
@@ -196,6 +196,7 @@ def _cards(
     tables: Any,  # noqa: ANN401
     truth: bool,
     cause: Cause | None,
+    method: str,
     compared: str,
 ) -> TableBlueprint:
     lines = (entities.PATH, entities.TRUTH, *([entities.ALTERNATIVE] if compared else []))
@@ -217,7 +218,9 @@ def _cards(
     if compared and truth:
         against.append(tables.Column("other_a_err", name="its A_err (px)"))
     columns = [
-        tables.Column("photo", name="skyline", column_type=tables.PreviewCell(thumbnail)),
+        tables.Column(
+            "photo", name=shown_in_viewer(f"by {method}"), column_type=tables.PreviewCell(thumbnail)
+        ),
         *against,
         *(errors if truth else []),
         tables.Column("margin", name="margin"),

@@ -13,7 +13,7 @@ integers too; another release of it may code the same pixels differently.
 import io
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -40,13 +40,13 @@ class Scene:
 
     kind: Kind
     seed: int
-    photo: U8
+    photo: U8 = field(repr=False)
     """``(H, W, 3)`` uint8 RGB: the decoded `jpeg`."""
 
     truth: Skyline
     """Row of the first pixel of each column that is at least half terrain; all visible."""
 
-    jpeg: bytes
+    jpeg: bytes = field(repr=False)
     """The photo as a JPEG file."""
 
     @property

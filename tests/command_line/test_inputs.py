@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.command_line.inputs import output_names
+from skyline_viz.command_line.inputs import no_photos, output_names
 
 
 @pytest.mark.parametrize(
@@ -31,3 +31,12 @@ def test_geopose_photos_are_called_after_their_folders():
     made = [sv.DatasetItem(name, Path(name) / "photo.jpg", label_map=True) for name in ("n1", "n2")]
     assert output_names(made) == ["n1", "n2"]
     assert output_names(made[:1]) == ["n1"]
+
+
+def test_photos_that_were_taken_for_methods_are_named(tmp_path):
+    photo = tmp_path / "a.png"
+    photo.touch()
+    assert no_photos(["paper", str(photo)]) == (
+        f"{photo} was taken for a method; name photos before --method."
+    )
+    assert no_photos([str(photo)]) == "which photos? Name at least one photo or folder."

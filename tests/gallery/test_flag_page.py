@@ -152,9 +152,9 @@ def test_a_full_disk_is_a_sentence_and_nothing_is_acknowledged(built, page, monk
 def test_what_a_detection_came_to_is_said_in_words():
     verdict = Verdict(None, None, None, None, None, 1.234, 7)
     entry = Entry("a", "", "", 60, 70, verdict)
-    assert about(entry) == ("", "margin 1.23 at 7")
+    assert about(entry) == ("", "margin 1.23 at 7 · by default")
     right = replace(entry, verdict=replace(verdict, a_err=0.5, segments=()), causes=())
-    assert about(right) == ("A_err 0.50 px", "no column wrong · margin 1.23 at 7")
+    assert about(right) == ("A_err 0.50 px", "no column wrong · margin 1.23 at 7 · by default")
     wrong = replace(
         right,
         verdict=replace(right.verdict, segments=((0, 9),)),
@@ -164,5 +164,5 @@ def test_what_a_detection_came_to_is_said_in_words():
     )
     assert about(wrong) == (
         "2.00 px from paper · A_err 0.50 px · too steep",
-        "wrong 0 to 9 · margin 1.23 at 7",
+        "wrong 0 to 9 · margin 1.23 at 7 · by default",
     )
