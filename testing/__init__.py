@@ -1,5 +1,6 @@
 """What tests, benchmarks and tools share: places, made inputs, faults, a browser and a viewer."""
 
+import os
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -35,3 +36,11 @@ def until(what: Callable[[], Answer], process: subprocess.Popen[Any] | None = No
         assert not over, "it never happened"
         sleep(0.02)
     return answer
+
+
+def uncovered() -> dict[str, str]:
+    """The environment without what makes a process count its coverage.
+
+    For tests that look at all that a process imports, prints or writes.
+    """
+    return {name: value for name, value in os.environ.items() if not name.startswith("COVERAGE")}

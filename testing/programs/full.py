@@ -5,6 +5,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from testing import uncovered
+
 LIMITED = """
 import resource, sys
 from {program}.cli import main
@@ -19,7 +21,9 @@ def run(
     """Run a command of ours, none of whose files may hold more than so many bytes."""
     code = LIMITED.format(program=program, most=most)
     command = [sys.executable, "-c", code, *map(str, words)]
-    return subprocess.run(command, stdout=stdout, stderr=subprocess.PIPE, text=True, check=False)
+    return subprocess.run(
+        command, stdout=stdout, stderr=subprocess.PIPE, text=True, check=False, env=uncovered()
+    )
 
 
 COMMANDS = {

@@ -9,7 +9,7 @@ import zipfile
 
 import pytest
 
-from testing import ROOT
+from testing import ROOT, uncovered
 
 
 @pytest.fixture(scope="module")
@@ -27,14 +27,14 @@ def installed(wheel, tmp_path_factory):
     folder = tmp_path_factory.mktemp("environment")
     venv.create(folder, with_pip=True)
     programs = folder / ("Scripts" if os.name == "nt" else "bin")
-    locked = ["--constraint", str(ROOT / "requirements-dev.txt")]
     pip = [str(programs / "python"), "-m", "pip", "--disable-pip-version-check", "--quiet"]
-    subprocess.run([*pip, "install", *locked, str(wheel)], check=True, capture_output=True)
+    for what in (["-r", str(ROOT / "requirements.txt")], ["--no-deps", str(wheel)]):
+        subprocess.run([*pip, "install", *what], check=True, capture_output=True)
     return programs
 
 
 def run(program, *arguments, cwd):
-    clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    clean = {name: value for name, value in uncovered().items() if name != "PYTHONPATH"}
     command = [str(program), *map(str, arguments)]
     return subprocess.run(command, cwd=cwd, env=clean, capture_output=True, text=True, check=False)
 

@@ -1,7 +1,6 @@
 """The package's public names, and that importing it loads nothing heavy."""
 
 import importlib
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +9,7 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
+from testing import uncovered
 
 CONTRACT = (
     "read_photo",
@@ -31,7 +31,7 @@ HEAVY = ("numpy", "cv2", "numba", "matplotlib", "PIL", "rich", "tyro", "rerun", 
 
 def fresh(code):
     """What a new interpreter prints."""
-    environment = os.environ | {"PYTHONPATH": str(Path(sv.__file__).parents[1])}
+    environment = uncovered() | {"PYTHONPATH": str(Path(sv.__file__).parents[1])}
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", code],
         env=environment,
