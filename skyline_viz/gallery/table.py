@@ -105,7 +105,7 @@ def served(
         table.append(**_columns(entries, flags, photos))
         cards = folder / "cards.rbl"
         compared = next((entry.compared for entry in entries), "")
-        _cards(parts.tables, truth, cause, entries[0].method, compared).save(_TABLE, cards)
+        _cards(parts.tables, truth, cause, compared).save(_TABLE, cards)
         table.register_blueprint(cards.as_uri())
         address = f"{server.url()}/entry/{table.id}"
         yield ServedGallery(address, gallery, entries, flags, photos, table, client)
@@ -149,6 +149,7 @@ def _schema(index: str) -> pa.Schema:
             pa.field("difference", pa.float32()),
             pa.field("other_a_err", pa.float32()),
             pa.field("margin", pa.float32()),
+            pa.field("method", pa.utf8()),
             pa.field("wrong", pa.utf8()),
             pa.field("cause", pa.utf8()),
             pa.field("causes", pa.utf8()),
@@ -172,6 +173,7 @@ def _columns(
         "worst": [_worst(entry) for entry in entries],
         "difference": [_rounded(one.difference) for one in entries],
         "other_a_err": [_rounded(one.other_a_err) for one in entries],
+        "method": [shown_in_viewer(shortened(one.method)) for one in entries],
         "margin": [round(entry.verdict.margin, 2) for entry in entries],
         "wrong": [entry.wrong or "none" for entry in entries],
         "cause": [None if one.causes is None else one.cause or "none" for one in entries],
@@ -196,7 +198,6 @@ def _cards(
     tables: Any,  # noqa: ANN401
     truth: bool,
     cause: Cause | None,
-    method: str,
     compared: str,
 ) -> TableBlueprint:
     lines = (entities.PATH, entities.TRUTH, *([entities.ALTERNATIVE] if compared else []))
@@ -218,12 +219,11 @@ def _cards(
     if compared and truth:
         against.append(tables.Column("other_a_err", name="its A_err (px)"))
     columns = [
-        tables.Column(
-            "photo", name=shown_in_viewer(f"by {method}"), column_type=tables.PreviewCell(thumbnail)
-        ),
+        tables.Column("photo", name="skyline", column_type=tables.PreviewCell(thumbnail)),
         *against,
         *(errors if truth else []),
         tables.Column("margin", name="margin"),
+        tables.Column("method", name="by"),
         tables.Column("reviewed", name="reviewed", column_type=rr.components.Flag),
         tables.Column("comment", name="comment"),
     ]
