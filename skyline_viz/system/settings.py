@@ -55,6 +55,24 @@ def check_number(name: str, value: object, low: float, high: float, whole: bool 
         raise SettingError(f"{name} is a {kind} from {low:g} to {_plain(high)}, not {_said(value)}")
 
 
+def plain_number(value: object, real: bool = False) -> Any:  # noqa: ANN401 - or what it was
+    """A number as Python's own, whoever made it, as files and names need it; all else as it is.
+
+    Args:
+        value: The value of a setting.
+        real: Whether a whole number becomes a real one, too.
+
+    >>> import numpy as np
+    >>> plain_number(np.float32(0.25)), plain_number(np.int64(4)), plain_number(1, real=True)
+    (0.25, 4, 1.0)
+    """
+    if isinstance(value, tuple):
+        return tuple(plain_number(one, real) for one in value)
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return value
+    return int(value) if isinstance(value, Integral) and not real else float(value)
+
+
 def spelt(value: object) -> str:
     """A value as it is written in the name of a method.
 
@@ -176,7 +194,7 @@ class Configured:
     def settings(self) -> dict[str, object]:
         """Its settings by name."""
         names = [one.name for one in fields(self) if one.name not in self.UNSET]
-        return {one: getattr(self, one) for one in names}
+        return {one: plain_number(getattr(self, one)) for one in names}
 
     def kinds(self) -> dict[str, object]:
         """Type of each setting."""

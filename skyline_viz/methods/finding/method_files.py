@@ -87,7 +87,7 @@ def header_of(method: Configurable, trained: Trained | None = None) -> dict[str,
     if isinstance(method, Detector):
         return method.header()
     if isinstance(method, PluggedIn):
-        method.require_model()
+        method.require_told()
     return {
         "method": _key(method),
         "label": method.label,
