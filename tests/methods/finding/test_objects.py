@@ -13,6 +13,7 @@ from skyline_viz.methods.finding.method_files import load_method, method_digest,
 from skyline_viz.methods.finding.plugins import as_method
 from skyline_viz.methods.registry import find_method
 from skyline_viz.rendering import render
+from skyline_viz.running.batch import BatchError
 from skyline_viz.running.resume import Kept
 from testing.methods import own_folder, write_module
 
@@ -168,6 +169,14 @@ def test_a_class_that_nobody_finds_again_is_not_written(tmp_path):
 
     with pytest.raises(MethodError, match="inside of a function"):
         save_method(Level(), tmp_path / "m.npz")
+
+
+def test_one_that_no_other_process_takes_is_refused_with_a_sentence(mine, items):
+    method = mine.Field(3)
+    method.look_up = lambda photo: 3
+    with pytest.raises(BatchError, match=r"^Field cannot be sent.*use --workers 1\.$"):
+        sv.evaluate(items, method, workers=2)
+    assert len(sv.evaluate(items, method).results["field:row=3"]) == 2
 
 
 def test_untold_settings_are_not_shared(mine):
