@@ -223,8 +223,22 @@ class Detector:
         return replace(self, label=label)
 
     def header(self) -> dict[str, Any]:
-        """What its file says of it."""
+        """What its file says of it.
+
+        Raises:
+            SettingError: Its settings, or those for which its bank was trained, are of a class of
+                somebody's, which no file gives back.
+        """
+        self.config.require_ours()
+        self.bank.provenance.settings.require_ours()
+        return self.described()
+
+    def described(self) -> dict[str, Any]:
+        """All that there is to say of it, for its file and for a digest."""
         about = {"method": FILTERS, "label": self.label, "settings": asdict(self.config)}
+        kind = type(self.config)
+        if kind is not DetectorConfig:
+            about["class"] = f"{kind.__module__}:{kind.__qualname__}"
         return {**about, **self.bank.header()}
 
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
@@ -232,9 +246,14 @@ class Detector:
         return self.bank.arrays()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write one ``.npz`` file with bank, configuration and label, whole or not at all."""
+        """Write one ``.npz`` file with bank, configuration and label, whole or not at all.
+
+        Raises:
+            SettingError: Its settings are of a class of somebody's.
+        """
+        header = self.header()
         with replacing(path) as temporary, temporary.open("wb") as file:
-            headed_npz.write(file, self.header(), self.arrays())
+            headed_npz.write(file, header, self.arrays())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str] | bytes) -> Detector:

@@ -51,7 +51,7 @@ def check_number(name: str, value: object, low: float, high: float, whole: bool 
     """
     kind = "whole number" if whole else "number"
     numeric = isinstance(value, Integral if whole else Real) and not isinstance(value, bool)
-    if not (numeric and low <= value <= high):  # type: ignore[operator]  # numeric says it is one
+    if not (numeric and low <= plain_number(value) <= high):
         raise SettingError(f"{name} is a {kind} from {low:g} to {_plain(high)}, not {_said(value)}")
 
 

@@ -25,7 +25,7 @@ from skyline_viz.methods.names import HOMES
 from skyline_viz.methods.sky_network import SkyNetwork
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError, opened
-from skyline_viz.system.settings import SettingError
+from skyline_viz.system.settings import SettingError, plain_number
 
 EARLIER_FORMAT, EARLIER_VERSION = "skyline-method", 1
 """How the header of methods began that were written before detectors were files."""
@@ -85,7 +85,10 @@ def header_of(method: Configurable, trained: Trained | None = None) -> dict[str,
         MethodError: It keeps what it has learned to itself.
     """
     if isinstance(method, Detector):
-        return method.header()
+        try:
+            return method.header()
+        except SettingError as error:
+            raise MethodError(str(error)) from error
     if isinstance(method, PluggedIn):
         method.require_told()
     return {
@@ -93,7 +96,7 @@ def header_of(method: Configurable, trained: Trained | None = None) -> dict[str,
         "label": method.label,
         "settings": {name: _plain(value) for name, value in method.settings().items()},
         "digest": method_digest(method),
-        "trained": asdict(trained or Trained()),
+        "trained": {name: plain_number(one) for name, one in asdict(trained or Trained()).items()},
     }
 
 
@@ -220,7 +223,7 @@ def method_digest(method: Method) -> str:
     """Digest of a method's settings and of what it has learned: another one finds other lines."""
     known = as_method(method)
     if isinstance(known, Detector):
-        return headed_npz.digest(known.header(), known.arrays())
+        return headed_npz.digest(known.described(), known.arrays())
     about = {
         "method": _key(known),
         "label": known.label,
