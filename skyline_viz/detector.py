@@ -140,6 +140,11 @@ class Detector:
         return self.label or self.config.name
 
     @property
+    def learned_from(self) -> str:
+        """See `Configurable.learned_from`: where its filters are from."""
+        return self.bank.provenance.dataset
+
+    @property
     def training(self) -> TrainingConfig:
         """How it learns: with its own edges, and filters of the size and bins that its bank has."""
         bank = self.bank

@@ -174,11 +174,14 @@ class Configured:
     PRESETS: ClassVar[Presets] = {}
     """Names under which it is known, and what each sets differently from the defaults."""
 
-    UNSET: ClassVar[frozenset[str]] = frozenset({"label"})
+    UNSET: ClassVar[frozenset[str]] = frozenset({"label", "learned_from"})
     """Fields that are no settings."""
 
     label: str = field(default="", kw_only=True)
     """What it is called instead; empty to be called after its settings."""
+
+    learned_from: str = field(default="", kw_only=True, compare=False, repr=False)
+    """Name of the data set that it learned from, as its file says; empty if that is not known."""
 
     @property
     def name(self) -> str:

@@ -91,12 +91,13 @@ def header_of(method: Configurable, trained: Trained | None = None) -> dict[str,
             raise MethodError(str(error)) from error
     if isinstance(method, PluggedIn):
         method.require_told()
+    trained = trained or Trained(method.learned_from)
     return {
         "method": _key(method),
         "label": method.label,
         "settings": {name: _plain(value) for name, value in method.settings().items()},
         "digest": method_digest(method),
-        "trained": {name: plain_number(one) for name, one in asdict(trained or Trained()).items()},
+        "trained": {name: plain_number(one) for name, one in asdict(trained).items()},
     }
 
 
@@ -164,18 +165,26 @@ def _loaded(path: str, file: HeadedNpz, hint: str) -> Configurable:
     if not (isinstance(key, str) and isinstance(settings, dict) and isinstance(label, str)):
         raise MethodError(f"{path} is damaged: its header names no method.")
     try:
-        made: Configurable
+        made: Any
         if key == NETWORK:
             made = _network(settings, header.get("digest"), earlier=earlier)
         elif ":" in key:
-            return plugged_from_file(path, key, settings, file, label, hint)
+            made = plugged_from_file(path, key, settings, file, hint)
         else:
             made = _with_model(make_method(key), file).with_settings(settings)
-        return made.labelled(label)
+        found: Configurable = replace(made, label=label, learned_from=_dataset(header))
+        return found
     except (NpzError, MethodError):
         raise
     except ValueError as error:
         raise MethodError(f"{path} is damaged: {error}.") from error
+
+
+def _dataset(header: Mapping[str, Any]) -> str:
+    """Name of the data set that a method was trained on, as the header of its file says."""
+    trained = header.get("trained")
+    name = trained.get("dataset") if isinstance(trained, dict) else ""
+    return name if isinstance(name, str) else ""
 
 
 def _with_model(made: Configurable, file: HeadedNpz) -> Configurable:

@@ -47,6 +47,9 @@ class PluggedIn:
     label: str = ""
     """What it is called instead of after its settings."""
 
+    learned_from: str = field(default="", compare=False)
+    """See `Configurable.learned_from`."""
+
     unsaid: str = ""
     """What tells it from others of its class where its settings cannot be told."""
 
@@ -199,13 +202,15 @@ class PluggedLearner(PluggedIn):
             raise failed_in(self.place, error) from error
         if not callable(getattr(fitted, "detect", None)):
             raise MethodError(f"fit of {self.place} returns no trained method.")
-        return self._with(fitted, self.given)
+        return replace(self._with(fitted, self.given), learned_from="")
 
     def sharing(self, other: Self) -> Self:
         """See `Learner.sharing`."""
         if (self.given, self.unsaid) == (other.given, other.unsaid):
-            return replace(self, inner=other.inner, kept_back=other.kept_back)
-        return self._with(self._remade(self.given, other.arrays()), self.given)
+            shared = replace(self, inner=other.inner, kept_back=other.kept_back)
+        else:
+            shared = self._with(self._remade(self.given, other.arrays()), self.given)
+        return replace(shared, learned_from=other.learned_from)
 
 
 def as_method(method: object) -> Configurable:
@@ -245,7 +250,7 @@ def plug_in(place: str, kind: Any) -> PluggedIn:  # noqa: ANN401 - anything may 
 
 
 def plugged_from_file(
-    path: str, place: str, settings: Mapping[str, object], file: HeadedNpz, label: str, hint: str
+    path: str, place: str, settings: Mapping[str, object], file: HeadedNpz, hint: str
 ) -> PluggedIn:
     """The method of somebody's in an open file.
 
@@ -265,7 +270,7 @@ def plugged_from_file(
     except SettingError as error:
         raise MethodError(f"{path} is damaged: {error}.") from error
     model = {name: file.read(name) for name in file.arrays}
-    return _plugged(_made(kind, place, given, model), place, given, label)
+    return _plugged(_made(kind, place, given, model), place, given)
 
 
 def _check_detects(method: object, called: str) -> None:

@@ -16,6 +16,7 @@ from skyline_viz.methods.finding.method_files import (
     method_digest,
     save_method,
 )
+from skyline_viz.methods.registry import learned_from
 from skyline_viz.methods.sky_network import SkyNetwork
 from skyline_viz.rendering import render
 from skyline_viz.system import headed_npz
@@ -112,3 +113,14 @@ def test_numbers_of_any_library_come_back_from_a_file(tmp_path):
     edges = replace(make_method("edges"), tog=np.int64(9))
     save_method(edges, tmp_path / "m.npz", Trained("hills", np.int64(4), np.int64(1)))
     assert load_method(tmp_path / "m.npz").settings()["tog"] == 9
+
+
+def test_where_a_method_learned_stays_with_it(tmp_path):
+    first, second = tmp_path / "m.npz", tmp_path / "n.npz"
+    save_method(make_method("edges"), first, Trained("hills", 4))
+    known = load_method(first)
+    assert (known.learned_from, known) == ("hills", make_method("edges"))
+    save_method(known.with_settings({"tog": 9}), second)
+    assert learned_from(str(second)) == learned_from(load_method(second)) == "hills"
+    assert learned_from("edges") == learned_from(make_method("edges")) == ""
+    assert learned_from("default") == sv.Detector().bank.provenance.dataset
