@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import Int
+from skyline_viz.system.settings import plain_number
 
 if TYPE_CHECKING:
     from skyline_viz.tensor import Tensor  # compiled code: not needed to describe bins
@@ -48,9 +49,15 @@ class Bins:
     def __post_init__(self) -> None:
         """Refuse values that make no bins."""
         for name in ("coherences", "strengths", "orientations"):
-            value = getattr(self, name)
-            if not isinstance(value, int) or not 1 <= value <= 1000:
+            value = plain_number(getattr(self, name))
+            if type(value) is not int or not 1 <= value <= 1000:
                 raise ValueError(f"{name} is a number of bins from 1 to 1000, not {value!r}")
+            object.__setattr__(self, name, value)
+        for name in ("coherence_top", "strength_offset", "strength_range"):
+            value = plain_number(getattr(self, name), real=True)
+            if type(value) is not float:
+                raise ValueError(f"{name} is a number, not {value!r}")
+            object.__setattr__(self, name, value)
         if not 0 < self.coherence_top <= 1:
             raise ValueError(f"coherence_top lies in (0, 1], not at {self.coherence_top}")
         if not (np.isfinite(self.strength_offset) and 0 < self.strength_range < np.inf):

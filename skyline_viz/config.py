@@ -5,7 +5,13 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, Literal, TypeAlias, get_type_hints
 
 from skyline_viz.bins import Bins
-from skyline_viz.system.settings import check_number, nearest_name
+from skyline_viz.system.settings import (
+    SettingError,
+    check_number,
+    nearest_name,
+    plain_number,
+    spelt,
+)
 
 EdgeSource: TypeAlias = Literal["grey", "colour"]
 """What Canny sees: the grey photo, as published, or the colour photo."""
@@ -58,7 +64,10 @@ class DetectorConfig:
     def __post_init__(self) -> None:
         """Refuse values outside their range with a sentence that names the field."""
         for name, (low, high) in RANGES.items():
-            check_number(name, getattr(self, name), low, high, whole=name in ("frame", "delta"))
+            check_number(name, getattr(self, name), low, high, whole=name in _WHOLE)
+        for one in fields(self):  # also those of a class that adds some
+            real = one.name in RANGES and one.name not in _WHOLE
+            object.__setattr__(self, one.name, plain_number(getattr(self, one.name), real=real))
         if not isinstance(self.fit_thresholds, bool):
             raise ValueError(f"fit_thresholds is True or False, not {self.fit_thresholds!r}")
         if self.edge_source not in ("grey", "colour"):
@@ -73,11 +82,11 @@ class DetectorConfig:
             >>> DetectorConfig(delta=1).changed()
             ['delta 1']
         """
-        default = type(self)()
+        default = asdict(DetectorConfig())
         return [
-            f"{one.name} {getattr(self, one.name)}"
-            for one in fields(self)
-            if getattr(self, one.name) != getattr(default, one.name)
+            f"{name} {value if isinstance(value, bool) else spelt(value)}"
+            for name, value in asdict(self).items()
+            if value != default.get(name)
         ]
 
     @classmethod
@@ -108,12 +117,29 @@ class DetectorConfig:
     def name(self) -> str:
         """The nearest preset, and the settings that differ from it.
 
+        Settings that a class of somebody's adds always stand in it; one that adds none is called
+        after itself.
+
         Examples:
             >>> DetectorConfig(delta=10, v=0.9).name
             'default:v=0.9,delta=10'
         """
-        presets = {name: asdict(preset) for name, preset in self.presets().items()}
+        presets = {name: asdict(preset) for name, preset in DetectorConfig.presets().items()}
+        if type(self) is not DetectorConfig and asdict(self).keys() == presets["default"].keys():
+            presets = {type(self).__name__: presets["default"]}
         return nearest_name(asdict(self), presets)
+
+    def require_ours(self) -> None:
+        """Refuse to be written to a file, which knows our settings only.
+
+        Raises:
+            SettingError: They are of a class of somebody's.
+        """
+        if type(self) is not DetectorConfig:
+            raise SettingError(
+                f"settings of {type(self).__name__} cannot be written to a file, which can hold "
+                f"only those of DetectorConfig."
+            )
 
     @classmethod
     def kinds(cls) -> dict[str, object]:
@@ -129,6 +155,8 @@ class DetectorConfig:
         changes: dict[str, Any] = dict(values)
         return replace(self, **changes)
 
+
+_WHOLE = ("frame", "delta")  # numbers of pixels
 
 RANGES: dict[str, tuple[float, float]] = {
     "low_threshold": (0, 1e5),
@@ -171,3 +199,6 @@ class TrainingConfig:
             raise ValueError(f"filter_size is one of {FILTER_SIZES}, not {self.filter_size}")
         check_number("band", self.band, 0, 1e6)
         check_number("smoothness", self.smoothness, 0, 1e12)
+        object.__setattr__(self, "filter_size", int(self.filter_size))
+        for name in ("band", "smoothness"):
+            object.__setattr__(self, name, float(getattr(self, name)))

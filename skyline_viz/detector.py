@@ -140,6 +140,11 @@ class Detector:
         return self.label or self.config.name
 
     @property
+    def learned_from(self) -> str:
+        """See `Configurable.learned_from`: where its filters are from."""
+        return self.bank.provenance.dataset
+
+    @property
     def training(self) -> TrainingConfig:
         """How it learns: with its own edges, and filters of the size and bins that its bank has."""
         bank = self.bank
@@ -223,8 +228,22 @@ class Detector:
         return replace(self, label=label)
 
     def header(self) -> dict[str, Any]:
-        """What its file says of it."""
+        """What its file says of it.
+
+        Raises:
+            SettingError: Its settings, or those for which its bank was trained, are of a class of
+                somebody's, which no file gives back.
+        """
+        self.config.require_ours()
+        self.bank.provenance.settings.require_ours()
+        return self.described()
+
+    def described(self) -> dict[str, Any]:
+        """All that there is to say of it, for its file and for a digest."""
         about = {"method": FILTERS, "label": self.label, "settings": asdict(self.config)}
+        kind = type(self.config)
+        if kind is not DetectorConfig:
+            about["class"] = f"{kind.__module__}:{kind.__qualname__}"
         return {**about, **self.bank.header()}
 
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
@@ -232,9 +251,14 @@ class Detector:
         return self.bank.arrays()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write one ``.npz`` file with bank, configuration and label, whole or not at all."""
+        """Write one ``.npz`` file with bank, configuration and label, whole or not at all.
+
+        Raises:
+            SettingError: Its settings are of a class of somebody's.
+        """
+        header = self.header()
         with replacing(path) as temporary, temporary.open("wb") as file:
-            headed_npz.write(file, self.header(), self.arrays())
+            headed_npz.write(file, header, self.arrays())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str] | bytes) -> Detector:

@@ -16,6 +16,7 @@ from skyline_viz.config import FILTER_SIZES, DetectorConfig, EdgeSource
 from skyline_viz.files import replacing
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError, Stored, opened
+from skyline_viz.system.settings import plain_number
 from skyline_viz.terrain import FEATURES
 
 EARLIER_FORMAT, EARLIER_VERSION = "skyline-viz filter bank", 1
@@ -62,6 +63,12 @@ class Provenance:
 
     detector: DetectorConfig | None = None
     """Settings of the detector for which it was trained; banks of earlier versions know none."""
+
+    def __post_init__(self) -> None:
+        """Make numbers Python's own, as files need them."""
+        for name in ("images", "seed", "smoothness"):
+            value = plain_number(getattr(self, name), real=name == "smoothness")
+            object.__setattr__(self, name, value)
 
     @property
     def settings(self) -> DetectorConfig:
@@ -137,7 +144,12 @@ class FilterBank:
         return self.samples < STARVED_SAMPLES
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write one ``.npz`` file, whole or not at all; the same bank gives the same bytes."""
+        """Write one ``.npz`` file, whole or not at all; the same bank gives the same bytes.
+
+        Raises:
+            SettingError: It was trained for settings of a class of somebody's.
+        """
+        self.provenance.settings.require_ours()
         with replacing(path) as temporary, temporary.open("wb") as file:
             headed_npz.write(file, self.header(), self.arrays())
 

@@ -114,6 +114,10 @@ class Configurable(Method, Protocol):
     def label(self) -> str:
         """What it is called instead of after its settings; empty where it is not."""
 
+    @property
+    def learned_from(self) -> str:
+        """Name of the data set that it learned from; empty if that is not known."""
+
     def labelled(self, label: str) -> Self:
         """The same under another name."""
 
@@ -141,7 +145,7 @@ class Configurable(Method, Protocol):
 class LearnedMethod(Configured):
     """What methods with a `Model` have in common."""
 
-    UNSET: ClassVar = frozenset({"label", "model"})
+    UNSET: ClassVar = Configured.UNSET | {"model"}
 
     model: Model = field(default_factory=dict)
     """What it has learned; empty before training."""
@@ -161,11 +165,11 @@ class LearnedMethod(Configured):
 
     def fit(self, items: Iterable[Item], seed: int = 0) -> Self:
         """See `Learner.fit`."""
-        return replace(self, model=self.learn(tuple(items), seed))
+        return replace(self, model=self.learn(tuple(items), seed), learned_from="")
 
     def sharing(self, other: LearnedMethod) -> Self:
         """See `Learner.sharing`."""
-        return replace(self, model=other.model)
+        return replace(self, model=other.model, learned_from=other.learned_from)
 
     def detect(self, photo: U8) -> Detection:
         """See `Method.detect`."""

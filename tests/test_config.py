@@ -1,12 +1,17 @@
 """Settings: defaults, the published ones, and values that are refused by name."""
 
-from dataclasses import FrozenInstanceError, fields, replace
+import json
+from dataclasses import FrozenInstanceError, asdict, dataclass, fields, replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from skyline_viz.bins import Bins
 from skyline_viz.config import FILTER_SIZES, DetectorConfig, TrainingConfig
+from skyline_viz.filter_bank import Provenance
 
 RANGES = {
     "low_threshold": (0, 220),
@@ -152,3 +157,52 @@ def test_other_weights_are_refused(name, value):
 
 def test_weights_of_zero():
     assert TrainingConfig(band=0, smoothness=0).smoothness == 0
+
+
+NUMBERS = st.sampled_from([np.float32, np.float64, np.float16, Fraction])
+WHOLE = st.sampled_from([np.int16, np.int64, np.uint8])
+
+
+@given(NUMBERS, WHOLE, st.integers(0, 4))
+def test_numbers_of_any_library_are_kept_as_pythons_own(number, whole, quarters):
+    value = number(quarters / 4)
+    config = DetectorConfig(v=value, delta=whole(quarters))
+    training = TrainingConfig(Bins(whole(3), coherence_top=number(0.5)), whole(7), number(8))
+    provenance = Provenance(seed=whole(quarters), smoothness=value)
+    plain = DetectorConfig(v=quarters / 4, delta=quarters)
+    assert json.dumps(asdict(config)) == json.dumps(asdict(plain))
+    assert config.name == plain.name
+    wanted = TrainingConfig(Bins(3, coherence_top=0.5), 7, 8)
+    assert json.dumps(asdict(training)) == json.dumps(asdict(wanted))
+    assert json.dumps(asdict(provenance)) == json.dumps(
+        asdict(Provenance(seed=quarters, smoothness=quarters / 4))
+    )
+
+
+def test_equal_settings_are_one_text_and_one_name():
+    assert json.dumps(asdict(DetectorConfig(v=1))) == json.dumps(asdict(DetectorConfig(v=1.0)))
+    assert DetectorConfig(v=1).changed() == ["v 1"]
+
+
+@pytest.mark.parametrize("values", [{"coherences": True}, {"strength_range": "x"}], ids=repr)
+def test_what_is_no_number_makes_no_bins(values):
+    with pytest.raises(ValueError, match="is a number"):
+        Bins(**values)
+
+
+@dataclass(frozen=True)
+class Deeper(DetectorConfig):
+    depth: float = 0.5
+
+
+@dataclass(frozen=True)
+class Alike(DetectorConfig):
+    pass
+
+
+def test_settings_that_a_class_adds_always_stand_in_the_name():
+    assert Deeper().name == "default:depth=0.5"
+    assert Deeper.paper().name == "paper:depth=0.5"
+    assert Deeper(delta=8, depth=np.float32(0.25)).name == "default:delta=8,depth=0.25"
+    assert Deeper().changed() == ["depth 0.5"]
+    assert (Alike().name, Alike(delta=8).name) == ("Alike", "Alike:delta=8")

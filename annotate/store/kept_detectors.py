@@ -35,7 +35,8 @@ class KeptDetector:
 
 def pack(method: Method) -> KeptDetector:
     """Turn a detector or another method into text and bytes."""
-    known, digest = as_method(method), method_digest(method)
+    known = as_method(method)
+    digest = method_digest(known)
     what = f"method {known.name}"
     if isinstance(known, Detector):
         learned = known.bank.provenance.dataset or "photos without a name"

@@ -65,20 +65,15 @@ class Evaluate(OnTruth):
         folds = f"{self.folds}-fold cross-validation" if self.folds else ""
         chosen = self.methods.chosen(to_train=bool(self.folds))
         if not folds:
-            for text in self.methods.method:
-                if methods.learned_from(text) == dataset:
-                    say(f"{text} was trained on {dataset}, so this is no test; see --folds.")
+            for one in chosen:
+                if methods.learned_from(one) == dataset:
+                    say(f"{one.name} was trained on {dataset}, so this is no test; see --folds.")
         if len(chosen) > 1:
             return chosen, folds or "as they are"
         (one,) = chosen
         if self.methods.method or self.methods.network:
             return chosen, f"{one.name}, {folds or 'as it is'}"
-        from skyline_viz.detector import Detector
-
-        assert isinstance(one, Detector)
-        learned = one.bank.provenance.dataset
-        if not folds and learned == dataset:
-            say(f"the bank was trained on {dataset}, so this is no test; see --folds.")
+        learned = methods.learned_from(one)
         return chosen, folds or f"filter bank trained on {learned or 'an unnamed data set'}"
 
 

@@ -13,13 +13,13 @@ from skyline_viz.datasets.item import Item
 from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.folds import Folds
 from skyline_viz.evaluation.tasks import PhotoTask, compare_photos, photo_tasks, told_once
-from skyline_viz.method import LearnedMethod, Method, MethodError
+from skyline_viz.method import Configurable, LearnedMethod, Method, MethodError
 from skyline_viz.methods.finding.plugins import as_method
 from skyline_viz.methods.registry import find_method
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import Kept
 
-Methods = str | Method | Sequence[str | Method]
+Methods = str | Method | Iterable[str | Method]
 """One method or several, each as an object or as `find_method` takes it."""
 
 
@@ -170,20 +170,31 @@ def assign(
     return Assigned(tasks, ready, failures, folds, seed)
 
 
-def chosen_methods(methods: Methods) -> list[Method]:
+def chosen_methods(methods: Methods) -> list[Configurable]:
     """Methods as objects.
 
     Raises:
-        MethodError: One is unknown, or two have the same name.
+        MethodError: One is unknown or none at all, or two have the same name.
     """
-    given = [methods] if isinstance(methods, str) or not isinstance(methods, Sequence) else methods
-    chosen: list[Method] = [
-        find_method(one) if isinstance(one, str) else as_method(one) for one in given
-    ]
-    names = [one.name for one in chosen]
-    if twice := sorted({name for name in names if names.count(name) > 1}):
+    alone = isinstance(methods, str) or hasattr(methods, "detect")
+    several = isinstance(methods, Iterable) and not alone
+    given = list(methods) if several else [methods]  # type: ignore[arg-type]  # several says so
+    chosen = [find_method(one) if isinstance(one, str) else as_method(one) for one in given]
+    for name in _twice(chosen):  # objects of one class that have a name without their settings
+        chosen = [
+            one.labelled("")
+            if one.name == name and not isinstance(known, str | Configurable)
+            else one
+            for one, known in zip(chosen, given, strict=True)
+        ]
+    if twice := _twice(chosen):
         raise MethodError(f"two methods are called {twice[0]}, and results go by the name.")
     return chosen
+
+
+def _twice(methods: Sequence[Method]) -> list[str]:
+    names = [one.name for one in methods]
+    return sorted({name for name in names if names.count(name) > 1})
 
 
 def _tested(assigned: Assigned, workers: int, kept: Kept | None) -> Evaluation:

@@ -32,7 +32,7 @@ def sweep(
 
     Args:
         items: Photos with truth; one photo is a list of one.
-        setting: Name of a setting of `DetectorConfig`.
+        setting: Name of a setting of the detector's configuration.
         values: Its values.
         detector: Around which settings: a detector, or one as `find_method` takes it.
         workers: Number of processes; 1 works in this one, 0 chooses by the number of photos.
@@ -55,7 +55,7 @@ def sweep(
     start = find_method(detector) if isinstance(detector, str) else detector
     if not isinstance(start, Detector):
         raise MethodError(f"settings are swept of our own detector, not of {start.name}.")
-    known = [one.name for one in fields(DetectorConfig)]
+    known = [one.name for one in fields(start.config)]
     if setting not in known:
         raise ValueError(f"there is no setting {setting}; there are {', '.join(known)}")
     detectors = {

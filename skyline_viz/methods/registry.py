@@ -7,7 +7,7 @@ from pathlib import Path
 
 from skyline_viz.detector import Detector
 from skyline_viz.filter_bank import FilterBank, FilterBankError
-from skyline_viz.method import Configurable, LearnedMethod, MethodError
+from skyline_viz.method import Configurable, LearnedMethod, Method, MethodError
 from skyline_viz.methods.finding.importing import class_at, offered
 from skyline_viz.methods.finding.method_files import (
     Trained,
@@ -17,11 +17,10 @@ from skyline_viz.methods.finding.method_files import (
     model_bytes,
     save_method,
 )
-from skyline_viz.methods.finding.plugins import PluggedLearner, plug_in
+from skyline_viz.methods.finding.plugins import PluggedLearner, as_method, plug_in
 from skyline_viz.methods.finding.specs import Spec, parse
 from skyline_viz.methods.names import NAMES
 from skyline_viz.methods.sky_network import SkyNetwork
-from skyline_viz.system.headed_npz import NpzError, opened
 from skyline_viz.system.notes import note
 from skyline_viz.system.settings import from_texts, meant, name_with
 
@@ -87,26 +86,17 @@ def find_method(text: str) -> Configurable:
     return changed.labelled(spec.label or label)
 
 
-def learned_from(text: str) -> str:
-    """Name of the data set that a named method was trained on; empty if it is not known.
+def learned_from(method: str | Method) -> str:
+    """Name of the data set that a method was trained on; empty if it is not known.
+
+    Args:
+        method: A method, or one as `find_method` takes it.
 
     Raises:
         MethodError: There is no such method.
     """
-    method = find_method(text)
-    if isinstance(method, Detector):
-        return method.bank.provenance.dataset
-    spec = _parsed(text)
-    file = spec.target if spec.is_file else spec.settings.get(MODEL)
-    if file is None or file.endswith(".onnx"):
-        return ""
-    try:
-        with opened(file) as content:
-            trained = content.header.get("trained")
-    except (NpzError, OSError) as error:
-        raise MethodError(f"{file} is damaged or no trained method.") from error
-    dataset = trained.get("dataset") if isinstance(trained, dict) else ""
-    return dataset if isinstance(dataset, str) else ""
+    known = find_method(method) if isinstance(method, str) else as_method(method)
+    return known.learned_from
 
 
 def has_learned(text: str) -> bool:

@@ -9,10 +9,12 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
+from itertools import chain, islice
 from multiprocessing.synchronize import Event
 from typing import Protocol, TypeVar
 
 from skyline_viz.running.progress import ProgressBar
+from skyline_viz.running.sending import Unsendable, packed, unpacked
 from skyline_viz.system import aftermath
 from skyline_viz.system.endings import held_back
 from skyline_viz.system.memory import limit_photos, photo_limit
@@ -85,7 +87,7 @@ def run(
 
     Raises:
         ValueError: A negative number of workers.
-        BatchError: A worker process died.
+        BatchError: A worker process died, or the work cannot be sent to one.
         OSError: The disk is full or read-only.
     """
     workers = chosen_workers(workers, len(tasks))
@@ -162,27 +164,34 @@ def _one_by_one(
 def _in_processes(
     function: Callable[[Task], Value], tasks: Sequence[Task], workers: int
 ) -> Generator[Value | Failure, None, None]:
+    coming: Iterator[bytes] = (packed((function, task), task.name) for task in tasks)
+    try:
+        first = list(islice(coming, 1))  # what cannot be sent is found before there are processes
+    except Unsendable as error:
+        raise BatchError(str(error)) from error
     context = multiprocessing.get_context("spawn")  # works everywhere, and inherits no threads
     stop = context.Event()
     known = (stop, aftermath.for_workers(), photo_limit())
     pool = ProcessPoolExecutor(workers, context, initializer=_prepare_worker, initargs=known)
-    waiting: deque[Future[tuple[Value | Failure, list[str]]]] = deque()
-    coming = iter(tasks)
+    waiting: deque[Future[bytes]] = deque()
+    coming = chain(first, coming)
     try:
         while True:
             for task in coming:
                 # both reach all processes of a terminal, and workers are to finish their photos:
                 # they inherit that these are held back
                 with held_back("SIGINT", "SIGHUP"):
-                    waiting.append(pool.submit(_attempt_in_worker, function, task))
+                    waiting.append(pool.submit(_attempt_in_worker, task))
                 if len(waiting) >= 2 * workers:
                     break
             if not waiting:
                 return
-            outcome, notes = waiting.popleft().result()
+            outcome, notes = unpacked(waiting.popleft().result())
             for one in notes:  # of its photos, which nobody hears in a worker
                 note(one)
             yield outcome
+    except Unsendable as error:
+        raise BatchError(str(error)) from error
     except BrokenProcessPool:
         raise BatchError(
             "a worker process died, probably for want of memory; try fewer workers."
@@ -208,12 +217,15 @@ def _prepare_worker(stop: Event, news: aftermath.News, megapixels: float) -> Non
     limit_photos(megapixels)
 
 
-def _attempt_in_worker(
-    function: Callable[[Task], Value], task: Task
-) -> tuple[Value | Failure, list[str]]:
-    """The outcome, and what was noted about photos on the way."""
+def _attempt_in_worker(work: bytes) -> bytes:
+    """The outcome, and what was noted about photos on the way.
+
+    Raises:
+        Unsendable: The work cannot be unpacked here, or the outcome cannot be sent back.
+    """
+    function, task = unpacked(work)
     if _Worker.stop and _Worker.stop.is_set():
-        return Failure(task.name, "interrupted"), []
+        return packed((Failure(task.name, "interrupted"), []), task.name)
     notes: list[str] = []
     with heard_by(notes.append):
-        return attempt(function, task), notes
+        return packed((attempt(function, task), notes), task.name)

@@ -51,8 +51,26 @@ def check_number(name: str, value: object, low: float, high: float, whole: bool 
     """
     kind = "whole number" if whole else "number"
     numeric = isinstance(value, Integral if whole else Real) and not isinstance(value, bool)
-    if not (numeric and low <= value <= high):  # type: ignore[operator]  # numeric says it is one
+    if not (numeric and low <= plain_number(value) <= high):
         raise SettingError(f"{name} is a {kind} from {low:g} to {_plain(high)}, not {_said(value)}")
+
+
+def plain_number(value: object, real: bool = False) -> Any:  # noqa: ANN401 - or what it was
+    """A number as Python's own, whoever made it, as files and names need it; all else as it is.
+
+    Args:
+        value: The value of a setting.
+        real: Whether a whole number becomes a real one, too.
+
+    >>> import numpy as np
+    >>> plain_number(np.float32(0.25)), plain_number(np.int64(4)), plain_number(1, real=True)
+    (0.25, 4, 1.0)
+    """
+    if isinstance(value, tuple):
+        return tuple(plain_number(one, real) for one in value)
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return value
+    return int(value) if isinstance(value, Integral) and not real else float(value)
 
 
 def spelt(value: object) -> str:
@@ -156,11 +174,14 @@ class Configured:
     PRESETS: ClassVar[Presets] = {}
     """Names under which it is known, and what each sets differently from the defaults."""
 
-    UNSET: ClassVar[frozenset[str]] = frozenset({"label"})
+    UNSET: ClassVar[frozenset[str]] = frozenset({"label", "learned_from"})
     """Fields that are no settings."""
 
     label: str = field(default="", kw_only=True)
     """What it is called instead; empty to be called after its settings."""
+
+    learned_from: str = field(default="", kw_only=True, compare=False, repr=False)
+    """Name of the data set that it learned from, as its file says; empty if that is not known."""
 
     @property
     def name(self) -> str:
@@ -176,7 +197,7 @@ class Configured:
     def settings(self) -> dict[str, object]:
         """Its settings by name."""
         names = [one.name for one in fields(self) if one.name not in self.UNSET]
-        return {one: getattr(self, one) for one in names}
+        return {one: plain_number(getattr(self, one)) for one in names}
 
     def kinds(self) -> dict[str, object]:
         """Type of each setting."""

@@ -41,7 +41,10 @@ def test_testing_on_the_training_photos_is_noticed(say, hills):
     assert say("train", hills, "--out", "b.npz")[0] == 0
     status, _, err = say("evaluate", hills, "--bank", "b.npz")
     assert status == 0
-    assert err == "skyline-viz: the bank was trained on hills, so this is no test; see --folds.\n"
+    said = "skyline-viz: b.npz was trained on hills, so this is no test; see --folds.\n"
+    assert err == said
+    assert say("evaluate", hills, "--bank", "b.npz", "--method", "edges")[2] == said
+    assert say("evaluate", hills, "--method", "edges", "b.npz")[2] == said
 
 
 def test_an_evaluation_lists_failures(say, tmp_path):

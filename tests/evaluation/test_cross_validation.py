@@ -190,3 +190,22 @@ def test_a_data_set_can_be_evaluated_as_it_is(items):
     dataset = sv.open_dataset(items[0].photo_path.parents[1])
     found = evaluate(dataset, "edges")
     assert len(found.results["edges"]) == len(dataset)
+
+
+class _Level:
+    name = "level"
+
+    def detect(self, photo):
+        return np.full(photo.shape[1], 7.0)
+
+
+@pytest.mark.parametrize("several", [set, list, iter], ids=["set", "list", "iterator"])
+def test_methods_may_come_in_any_collection(several):
+    methods = several([sv.Detector(), "edges", _Level()])
+    assert {one.name for one in chosen_methods(methods)} == {"default", "edges", "level"}
+
+
+@pytest.mark.parametrize("no_method", [3, [3], {"default", 3}], ids=repr)
+def test_what_is_no_method_is_refused_with_a_sentence(no_method):
+    with pytest.raises(MethodError, match=r"^3 is no method: it has no detect\(photo\)\.$"):
+        sv.evaluate([], no_method)

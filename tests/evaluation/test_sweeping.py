@@ -1,5 +1,7 @@
 """A sweep comes to what evaluating each value comes to."""
 
+from dataclasses import dataclass
+
 import pytest
 
 import skyline_viz as sv
@@ -39,3 +41,18 @@ def test_settings_and_values_that_make_no_sense_are_sentences(items):
         sweep(items, "delta", [0.5])
     with pytest.raises(ValueError, match="settings are swept of our own detector, not of edges"):
         sweep(items, "delta", [1], EdgesOnly())
+
+
+@dataclass(frozen=True)
+class Deeper(sv.DetectorConfig):
+    depth: float = 0.5
+
+
+def test_settings_that_a_class_adds_are_swept_and_compared(items):
+    detector = Detector(config=Deeper())
+    found = sweep(items[:1], "depth", [0.5, 2], detector)
+    assert [one.config.depth for one in found.methods.values()] == [0.5, 2]
+    assert list(evaluate(items[:1], [detector, "default"]).results) == [
+        "default:depth=0.5",
+        "default",
+    ]

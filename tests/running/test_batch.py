@@ -12,6 +12,7 @@ import pytest
 
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.photo import PhotoError
+from skyline_viz.running import batch
 from skyline_viz.running.batch import BatchError, Failure, chosen_workers, run, sentence
 from skyline_viz.skyline import SkylineError
 
@@ -29,6 +30,10 @@ def threads(task):
 def mark(folder, task):
     (Path(folder) / task.name).touch()
     return task.name
+
+def lock(task):
+    from threading import Lock
+    return Lock()
 
 def full(task):
     raise OSError(28, "No space left on device")
@@ -103,6 +108,17 @@ def test_workers_leave_the_other_processors_alone(helpers):
 def test_a_dead_worker_ends_the_run_with_a_sentence(helpers):
     with pytest.raises(BatchError, match=r"a worker process died.*fewer workers"):
         list(run(helpers.die, tasks(4), workers=2))
+
+
+def test_work_that_cannot_be_sent_is_refused_before_there_are_processes(monkeypatch):
+    monkeypatch.setattr(batch, "ProcessPoolExecutor", None)
+    with pytest.raises(BatchError, match=r"<lambda> cannot be sent.*use --workers 1\.$"):
+        next(run(lambda task: task, tasks(4), workers=2))
+
+
+def test_an_outcome_that_cannot_be_sent_back_is_one_sentence(helpers):
+    with pytest.raises(BatchError, match=r"lock cannot be sent.*use --workers 1\.$"):
+        list(run(helpers.lock, tasks(4), workers=2))
 
 
 @pytest.mark.parametrize("workers", [1, 2])

@@ -25,7 +25,7 @@ from skyline_viz.methods.names import HOMES
 from skyline_viz.methods.sky_network import SkyNetwork
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError, opened
-from skyline_viz.system.settings import SettingError
+from skyline_viz.system.settings import SettingError, plain_number
 
 EARLIER_FORMAT, EARLIER_VERSION = "skyline-method", 1
 """How the header of methods began that were written before detectors were files."""
@@ -85,15 +85,19 @@ def header_of(method: Configurable, trained: Trained | None = None) -> dict[str,
         MethodError: It keeps what it has learned to itself.
     """
     if isinstance(method, Detector):
-        return method.header()
+        try:
+            return method.header()
+        except SettingError as error:
+            raise MethodError(str(error)) from error
     if isinstance(method, PluggedIn):
-        method.require_model()
+        method.require_told()
+    trained = trained or Trained(method.learned_from)
     return {
         "method": _key(method),
         "label": method.label,
         "settings": {name: _plain(value) for name, value in method.settings().items()},
         "digest": method_digest(method),
-        "trained": asdict(trained or Trained()),
+        "trained": {name: plain_number(one) for name, one in asdict(trained).items()},
     }
 
 
@@ -161,18 +165,26 @@ def _loaded(path: str, file: HeadedNpz, hint: str) -> Configurable:
     if not (isinstance(key, str) and isinstance(settings, dict) and isinstance(label, str)):
         raise MethodError(f"{path} is damaged: its header names no method.")
     try:
-        made: Configurable
+        made: Any
         if key == NETWORK:
             made = _network(settings, header.get("digest"), earlier=earlier)
         elif ":" in key:
-            return plugged_from_file(path, key, settings, file, label, hint)
+            made = plugged_from_file(path, key, settings, file, hint)
         else:
             made = _with_model(make_method(key), file).with_settings(settings)
-        return made.labelled(label)
+        found: Configurable = replace(made, label=label, learned_from=_dataset(header))
+        return found
     except (NpzError, MethodError):
         raise
     except ValueError as error:
         raise MethodError(f"{path} is damaged: {error}.") from error
+
+
+def _dataset(header: Mapping[str, Any]) -> str:
+    """Name of the data set that a method was trained on, as the header of its file says."""
+    trained = header.get("trained")
+    name = trained.get("dataset") if isinstance(trained, dict) else ""
+    return name if isinstance(name, str) else ""
 
 
 def _with_model(made: Configurable, file: HeadedNpz) -> Configurable:
@@ -220,7 +232,7 @@ def method_digest(method: Method) -> str:
     """Digest of a method's settings and of what it has learned: another one finds other lines."""
     known = as_method(method)
     if isinstance(known, Detector):
-        return headed_npz.digest(known.header(), known.arrays())
+        return headed_npz.digest(known.described(), known.arrays())
     about = {
         "method": _key(known),
         "label": known.label,

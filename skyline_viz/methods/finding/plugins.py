@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Self
+from uuid import uuid4
 
 import numpy as np
 import numpy.typing as npt
@@ -20,13 +21,12 @@ import numpy.typing as npt
 from skyline_viz.arrays import U8, check_photo
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.detection import Detection, timed
-from skyline_viz.method import Configurable, Learner, Method, MethodError, UnnamedClassError
+from skyline_viz.method import Configurable, MethodError, UnnamedClassError
 from skyline_viz.methods.finding.importing import class_at, failed_in, offered
+from skyline_viz.methods.finding.parameters import MODEL, checked, kinds_of, made_with
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.headed_npz import HeadedNpz
-from skyline_viz.system.settings import SettingError, check_kind, from_document, name_with
-
-_MODEL = "model"
+from skyline_viz.system.settings import SettingError, name_with
 
 _named: set[str] = set()  # places of classes that somebody has named in this process
 
@@ -46,6 +46,15 @@ class PluggedIn:
 
     label: str = ""
     """What it is called instead of after its settings."""
+
+    learned_from: str = field(default="", compare=False)
+    """See `Configurable.learned_from`."""
+
+    unsaid: str = ""
+    """What tells it from others of its class where its settings cannot be told."""
+
+    kept_back: str = ""
+    """What tells it from others of its class where what it has learned cannot be told."""
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Its class has been named also where it is sent to."""
@@ -73,40 +82,69 @@ class PluggedIn:
 
     def kinds(self) -> dict[str, object]:
         """See `Configurable.kinds`: the parameters of the class."""
-        return _kinds(type(self.inner))
+        return kinds_of(type(self.inner))
 
     def with_settings(self, values: Mapping[str, object]) -> Self:
         """See `Configurable.with_settings`."""
-        settings = {**self.given, **_checked(values, self.kinds())}
-        made = _made(type(self.inner), self.place, settings, self.arrays())
-        return replace(self, inner=made, given=settings)
+        settings = {**self.given, **checked(values, self.kinds())}
+        return self._with(self._remade(settings, self.arrays()), settings)
 
     def arrays(self) -> Mapping[str, npt.NDArray[Any]]:
         """See `Configurable.arrays`."""
-        model = getattr(self.inner, _MODEL, None)
+        model = getattr(self.inner, MODEL, None)
         if not isinstance(model, Mapping):
             return {}
         return {str(name): np.asarray(array) for name, array in model.items()}
 
-    def require_model(self) -> None:
-        """Refuse to be written to a file without what has been learned.
+    def require_told(self) -> None:
+        """Refuse to be written to a file that would give back another one.
 
         Raises:
-            MethodError: It learns, and says nothing of what it has learned.
+            MethodError: What it has learned, its settings or its class cannot be told.
         """
-        if isinstance(self, Learner) and not isinstance(getattr(self.inner, _MODEL, None), Mapping):
+        reason = ""
+        learns = callable(getattr(self.inner, "fit", None))
+        if learns and not isinstance(getattr(self.inner, MODEL, None), Mapping):
+            reason = f"what it has learned is in no {MODEL}, arrays by name"
+        elif "<locals>" in self.place:
+            reason = "its class is inside of a function, where nobody finds it again"
+        elif not self.unsaid:
+            self._remade(self.given, self.arrays())
+        if self.unsaid or reason:
+            reason = reason or "its settings are in no attributes named like its parameters"
+            raise MethodError(f"{self.place} cannot be written to a file, because {reason}.")
+
+    def _remade(self, settings: Mapping[str, object], model: Mapping[str, Any]) -> Any:  # noqa: ANN401
+        """An object of the class with these settings and this model.
+
+        Raises:
+            MethodError: The class fails, or the settings of this one cannot be told to it.
+        """
+        made = None if self.unsaid else _made(type(self.inner), self.place, settings, model)
+        alike = settings != self.given or made_with(made) == made_with(self.inner)
+        if made is None or not alike:
             raise MethodError(
-                f"what {self.place} has learned cannot be written to a file, because it has no "
-                f"{_MODEL}, arrays by name."
+                f"{self.place} cannot be made anew with its settings, because they are not in "
+                f"attributes named like its parameters."
             )
+        return made
+
+    def _with(self, inner: object, given: Mapping[str, object]) -> Self:
+        """The same with another object of the class."""
+        back = _kept_back(inner)
+        return replace(self, inner=inner, given=given, kept_back=back)
 
     def digest_of_code(self) -> str:
-        """Digest of the file that its class is in: other code finds other lines."""
+        """Digest of the file that its class is in: other code finds other lines.
+
+        What cannot be told of the object is drawn, so that no other one is taken for it.
+        """
+        drawn = self.unsaid + self.kept_back
         try:
             content = Path(inspect.getfile(type(self.inner))).read_bytes()
         except (OSError, TypeError):  # typed into a session
-            return ""
-        return hashlib.sha256(content).hexdigest()
+            return drawn
+        return hashlib.sha256(content).hexdigest() + drawn
 
     def detect(self, photo: U8) -> Detection:
         """See `Method.detect`.
@@ -150,6 +188,8 @@ class PluggedLearner(PluggedIn):
     @property
     def family(self) -> str:
         """See `Learner.family`."""
+        if self.unsaid:
+            return f"{self.place} {self.unsaid}"
         return str(getattr(self.inner, "family", f"{self.place} {self.given}"))
 
     def fit(self, items: Sequence[DatasetItem], seed: int = 0) -> Self:
@@ -162,22 +202,40 @@ class PluggedLearner(PluggedIn):
             raise failed_in(self.place, error) from error
         if not callable(getattr(fitted, "detect", None)):
             raise MethodError(f"fit of {self.place} returns no trained method.")
-        return replace(self, inner=fitted)
+        return replace(self._with(fitted, self.given), learned_from="")
 
     def sharing(self, other: Self) -> Self:
         """See `Learner.sharing`."""
-        if self.given == other.given:
-            return replace(self, inner=other.inner)
-        return replace(self, inner=_made(type(self.inner), self.place, self.given, other.arrays()))
+        if (self.given, self.unsaid) == (other.given, other.unsaid):
+            shared = replace(self, inner=other.inner, kept_back=other.kept_back)
+        else:
+            shared = self._with(self._remade(self.given, other.arrays()), self.given)
+        return replace(shared, learned_from=other.learned_from)
 
 
-def as_method(method: Method) -> Configurable:
-    """A method with all that is asked of one of ours, wherever its class comes from."""
+def as_method(method: object) -> Configurable:
+    """A method with all that is asked of one of ours, wherever its class comes from.
+
+    Settings of an object are read from its attributes that are called like the parameters of its
+    class. Where they cannot be told, it is taken for no other one, and nothing of it is kept.
+
+    Raises:
+        MethodError: It is none: it has no ``detect``, or is a class instead of an object of one.
+    """
+    _check_detects(method, f"{method!r:.60}")
+    if isinstance(method, type):
+        raise MethodError(
+            f"{method.__name__} is a class; make a method of it: {method.__name__}()."
+        )
     if isinstance(method, Configurable):
         return method
     kind = type(method)
-    place = f"{kind.__module__}:{kind.__qualname__}"
-    return _plugged(method, place, {})
+    given, called = made_with(method), getattr(method, "name", "")
+    own = isinstance(called, str) and called != getattr(kind, "name", "")  # and not of its class
+    plugged = _plugged(
+        method, f"{kind.__module__}:{kind.__qualname__}", given or {}, called if own else ""
+    )
+    return plugged if given is not None else replace(plugged, unsaid=uuid4().hex)
 
 
 def plug_in(place: str, kind: Any) -> PluggedIn:  # noqa: ANN401 - anything may be at a place
@@ -186,14 +244,13 @@ def plug_in(place: str, kind: Any) -> PluggedIn:  # noqa: ANN401 - anything may 
     Raises:
         MethodError: There is no such class, or it is no method.
     """
-    if not callable(getattr(kind, "detect", None)):
-        raise MethodError(f"{place} is no method: it has no detect(photo).")
+    _check_detects(kind, place)
     _named.add(place)
     return _plugged(_made(kind, place, {}, {}), place, {})
 
 
 def plugged_from_file(
-    path: str, place: str, settings: Mapping[str, object], file: HeadedNpz, label: str, hint: str
+    path: str, place: str, settings: Mapping[str, object], file: HeadedNpz, hint: str
 ) -> PluggedIn:
     """The method of somebody's in an open file.
 
@@ -209,46 +266,31 @@ def plugged_from_file(
         )
     kind = class_at(place)
     try:
-        checked = _checked(settings, _kinds(kind))
+        given = checked(settings, kinds_of(kind))
     except SettingError as error:
         raise MethodError(f"{path} is damaged: {error}.") from error
     model = {name: file.read(name) for name in file.arrays}
-    return _plugged(_made(kind, place, checked, model), place, checked, label)
+    return _plugged(_made(kind, place, given, model), place, given)
+
+
+def _check_detects(method: object, called: str) -> None:
+    if not callable(getattr(method, "detect", None)):
+        raise MethodError(f"{called} is no method: it has no detect(photo).")
 
 
 def _plugged(inner: object, place: str, given: Mapping[str, object], label: str = "") -> PluggedIn:
-    learns = callable(getattr(inner, "fit", None))
-    return (PluggedLearner if learns else PluggedIn)(inner, place, given, label)
+    kind = PluggedLearner if callable(getattr(inner, "fit", None)) else PluggedIn
+    return kind(inner, place, given, label, kept_back=_kept_back(inner))
+
+
+def _kept_back(inner: object) -> str:
+    """Drawn for an object that learns, and does not tell what it has learned."""
+    told = isinstance(getattr(inner, MODEL, ""), Mapping | None)  # None: nothing yet
+    return uuid4().hex if callable(getattr(inner, "fit", None)) and not told else ""
 
 
 def _made(kind: Any, place: str, settings: Mapping[str, object], model: Mapping[str, Any]) -> Any:  # noqa: ANN401
     try:
-        return kind(**settings, **({_MODEL: model} if model else {}))
+        return kind(**settings, **({MODEL: model} if model else {}))
     except Exception as error:
         raise failed_in(place, error) from error
-
-
-def _kinds(kind: type) -> dict[str, object]:
-    """Type of each parameter of a class that can be given as text; of its default if untyped."""
-    try:
-        parameters = inspect.signature(kind, eval_str=True).parameters.values()
-    except (TypeError, ValueError, NameError):
-        return {}
-    found: dict[str, object] = {}
-    for one in parameters:
-        if one.name in (_MODEL, "label") or one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD):
-            continue
-        usual = str if one.default in (one.empty, None) else type(one.default)
-        found[one.name] = usual if one.annotation is one.empty else one.annotation
-    return found
-
-
-def _checked(values: Mapping[str, object], kinds: Mapping[str, object]) -> dict[str, object]:
-    """Values of settings, if they are of the kinds that a class takes; it checks their range."""
-    checked: dict[str, object] = {}
-    for name, value in values.items():
-        if name not in kinds:
-            raise SettingError(f"there is no setting {name}")
-        checked[name] = from_document(value, kinds[name])
-        check_kind(name, checked[name], kinds[name], -float("inf"), float("inf"))
-    return checked

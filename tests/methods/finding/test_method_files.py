@@ -1,11 +1,13 @@
 """Methods as files: of one format, whoever wrote them."""
 
 import json
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
 import skyline_viz as sv
+from skyline_viz.datasets.item import LoadedItem
 from skyline_viz.method import MethodError
 from skyline_viz.methods.finding.method_files import (
     Trained,
@@ -14,7 +16,9 @@ from skyline_viz.methods.finding.method_files import (
     method_digest,
     save_method,
 )
+from skyline_viz.methods.registry import learned_from
 from skyline_viz.methods.sky_network import SkyNetwork
+from skyline_viz.rendering import render
 from skyline_viz.system import headed_npz
 from testing.methods import write_method
 
@@ -67,3 +71,56 @@ def test_other_headers_are_one_sentence(changes, tmp_path):
     with pytest.raises(MethodError) as caught:
         load_method(path)
     assert str(caught.value).endswith(".")
+
+
+@dataclass(frozen=True)
+class Deeper(sv.DetectorConfig):
+    depth: float = 0.5
+
+
+@dataclass(frozen=True)
+class Other(sv.DetectorConfig):
+    depth: float = 0.5
+
+
+@pytest.mark.parametrize(
+    "write",
+    [
+        lambda detector, path: detector.save(path),
+        save_method,
+        lambda detector, path: detector.bank.save(path),
+        lambda detector, path: sv.Detector(detector.bank).save(path),
+    ],
+    ids=["detector", "method", "bank that it learned", "detector with that bank"],
+)
+def test_settings_of_somebodys_class_are_in_no_file(write, tmp_path):
+    scene = render("desert", 1, 80, 60)
+    item = LoadedItem(scene.name, scene.photo, scene.truth)
+    detector = sv.Detector(config=Deeper()).fit([item])
+    with pytest.raises(ValueError, match=r"^settings of Deeper cannot be written to a file.*\.$"):
+        write(detector, tmp_path / "d.npz")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_detectors_of_other_classes_of_settings_are_others(tmp_path):
+    configs = [Deeper(), Deeper(depth=1), Other(), sv.DetectorConfig()]
+    assert len({method_digest(sv.Detector(config=one)) for one in configs}) == 4
+
+
+def test_numbers_of_any_library_come_back_from_a_file(tmp_path):
+    sv.Detector(config=sv.DetectorConfig(v=np.float32(0.25))).save(tmp_path / "d.npz")
+    assert load_method(tmp_path / "d.npz").settings()["v"] == 0.25
+    edges = replace(make_method("edges"), tog=np.int64(9))
+    save_method(edges, tmp_path / "m.npz", Trained("hills", np.int64(4), np.int64(1)))
+    assert load_method(tmp_path / "m.npz").settings()["tog"] == 9
+
+
+def test_where_a_method_learned_stays_with_it(tmp_path):
+    first, second = tmp_path / "m.npz", tmp_path / "n.npz"
+    save_method(make_method("edges"), first, Trained("hills", 4))
+    known = load_method(first)
+    assert (known.learned_from, known) == ("hills", make_method("edges"))
+    save_method(known.with_settings({"tog": 9}), second)
+    assert learned_from(str(second)) == learned_from(load_method(second)) == "hills"
+    assert learned_from("edges") == learned_from(make_method("edges")) == ""
+    assert learned_from("default") == sv.Detector().bank.provenance.dataset
