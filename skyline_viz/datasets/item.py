@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -53,6 +55,27 @@ class LoadedItem:
     def truth(self) -> Skyline | None:
         """The true skyline."""
         return self.skyline
+
+
+def listed(items: Iterable[Item]) -> list[Item]:
+    """The photos of a data set as a list.
+
+    Raises:
+        ValueError: They are none, or something else than photos.
+    """
+    if isinstance(items, str | os.PathLike):
+        raise ValueError(f"{os.fspath(items)} is a path; open it with sv.open_dataset.")
+    found = list(items) if isinstance(items, Iterable) else [items]
+    for one in found:
+        if not all(hasattr(one, part) for part in ("name", "photo", "truth")):
+            kind = type(one).__name__
+            raise ValueError(
+                f"a photo to work on has a name, photo() and truth(), as sv.LoadedItem has; "
+                f"this is a {kind}."
+            )
+    if not found:
+        raise ValueError("there are no photos to work on.")
+    return found
 
 
 def photo_and_truth(item: Item) -> tuple[U8, Skyline]:

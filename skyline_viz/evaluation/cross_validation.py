@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from skyline_viz.datasets.item import Item
+from skyline_viz.datasets.item import Item, listed
 from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.folds import Folds
 from skyline_viz.evaluation.tasks import PhotoTask, compare_photos, photo_tasks, told_once
 from skyline_viz.method import Configurable, LearnedMethod, Method, MethodError
 from skyline_viz.methods.finding.plugins import as_method
-from skyline_viz.methods.registry import find_method
+from skyline_viz.methods.registry import find_method, has_learned
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import Kept
 
@@ -101,7 +101,12 @@ def cross_validate(
         >>> found.folds, list(found.summaries), found.failures
         (3, ['default', 'edges'], ())
     """
-    chosen = chosen_methods(methods)
+    given = _given(methods)
+    if learned := next((one for one in given if isinstance(one, str) and has_learned(one)), None):
+        raise MethodError(
+            f"{learned} has learned already, and would be trained anew; name a method."
+        )
+    chosen = chosen_methods(given)
     assigned = assign(items, chosen, folds, seed=seed, workers=workers, kept=kept)
     return _tested(assigned, workers, kept)
 
@@ -146,10 +151,10 @@ def assign(
         kept: Where trained methods are kept; nowhere unless given.
 
     Raises:
-        ValueError: There are too few photos for so many folds.
+        ValueError: There are no photos, or too few for so many folds.
     """
+    items = listed(items)
     if folds is None:
-        items = tuple(items)
         tasks = {one.name: photo_tasks([(item, one) for item in items], kept) for one in methods}
         nothing: dict[str, list[Failure]] = {one.name: [] for one in methods}
         return Assigned(tasks, {one.name: one for one in methods}, nothing, 0, seed)
@@ -170,15 +175,13 @@ def assign(
     return Assigned(tasks, ready, failures, folds, seed)
 
 
-def chosen_methods(methods: Methods) -> list[Configurable]:
+def chosen_methods(methods: object) -> list[Configurable]:
     """Methods as objects.
 
     Raises:
         MethodError: One is unknown or none at all, or two have the same name.
     """
-    alone = isinstance(methods, str) or hasattr(methods, "detect")
-    several = isinstance(methods, Iterable) and not alone
-    given = list(methods) if several else [methods]  # type: ignore[arg-type]  # several says so
+    given = _given(methods)
     chosen = [find_method(one) if isinstance(one, str) else as_method(one) for one in given]
     for name in _twice(chosen):  # objects of one class that have a name without their settings
         chosen = [
@@ -190,6 +193,15 @@ def chosen_methods(methods: Methods) -> list[Configurable]:
     if twice := _twice(chosen):
         raise MethodError(f"two methods are called {twice[0]}, and results go by the name.")
     return chosen
+
+
+def _given(methods: object) -> list[object]:
+    alone = isinstance(methods, str) or hasattr(methods, "detect")
+    if alone or not isinstance(methods, Iterable):
+        return [methods]
+    if not (given := list(methods)):
+        raise MethodError("there are no methods to test.")
+    return given
 
 
 def _twice(methods: Sequence[Method]) -> list[str]:

@@ -57,6 +57,8 @@ def find_method(text: str) -> Configurable:
         >>> find_method("steep=paper:delta=4").name, find_method("paper:delta=4").name
         ('steep', 'paper:delta=4')
     """
+    if not isinstance(text, str):
+        raise MethodError(f"a method is named by a text, not by {text!r:.60}.")
     spec = _parsed(text)
     settings = dict(spec.settings)
     method = _by_target(spec)
@@ -127,14 +129,14 @@ def _by_target(spec: Spec) -> Configurable:
         return make_method(target)
     packages = offered()
     if target in packages:
-        return plug_in(packages[target], class_at(packages[target]))
+        return plug_in(packages[target], class_at(packages[target]), spec.settings)
     first, _, rest = target.partition(":")
     if first in (*NAMES, *packages):
         raise MethodError(
             f"{target} gives no value: settings are NAME=VALUE, as in {first}:{rest}=1."
         )
     if _CLASS.fullmatch(target):
-        return plug_in(target, class_at(target))
+        return plug_in(target, class_at(target), spec.settings)
     known = [*NAMES, *packages]
     raise MethodError(
         f"{target} is neither a method nor the file of a trained one; "

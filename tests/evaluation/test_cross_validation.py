@@ -205,7 +205,30 @@ def test_methods_may_come_in_any_collection(several):
     assert {one.name for one in chosen_methods(methods)} == {"default", "edges", "level"}
 
 
-@pytest.mark.parametrize("no_method", [3, [3], {"default", 3}], ids=repr)
+@pytest.mark.parametrize("no_method", [3, [3], {"default", 3}], ids=["number", "list", "set"])
 def test_what_is_no_method_is_refused_with_a_sentence(no_method):
     with pytest.raises(MethodError, match=r"^3 is no method: it has no detect\(photo\)\.$"):
         sv.evaluate([], no_method)
+
+
+@pytest.mark.parametrize(
+    ("items", "says"),
+    [
+        ([], "there are no photos to work on"),
+        ("web_dataset", "web_dataset is a path; open it with sv.open_dataset"),
+        ([(np.zeros((3, 3, 3), np.uint8), None)], "this is a tuple"),
+        (7, "this is a int"),
+    ],
+)
+def test_what_is_no_data_set_is_refused_in_a_sentence(items, says):
+    for ask in (sv.evaluate, sv.cross_validate):
+        with pytest.raises(ValueError, match=says):
+            ask(items, "default")
+
+
+def test_nothing_to_test_and_what_has_learned_already_are_refused(items, tmp_path):
+    with pytest.raises(MethodError, match="there are no methods to test"):
+        sv.evaluate(items, [])
+    sv.Detector().save(tmp_path / "d.npz")
+    with pytest.raises(MethodError, match=r"d\.npz has learned already"):
+        sv.cross_validate(items, [str(tmp_path / "d.npz")])

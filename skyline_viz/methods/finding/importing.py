@@ -43,7 +43,7 @@ def class_at(place: str) -> Any:  # noqa: ANN401 - anything may be there
                 f"there is no module {error.name}, neither in {folder} nor installed."
             ) from error
         raise failed_in(place, error) from error
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise failed_in(place, error) from error
     for part in name.split("."):
         if not hasattr(found, part):
@@ -53,7 +53,7 @@ def class_at(place: str) -> Any:  # noqa: ANN401 - anything may be there
     return found
 
 
-def failed_in(place: str, error: Exception) -> MethodError:
+def failed_in(place: str, error: BaseException) -> MethodError:
     """What went wrong in somebody's code, in one sentence with the line."""
     reason = " ".join(str(error).split())
     if isinstance(error, SyntaxError):

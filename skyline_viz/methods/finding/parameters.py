@@ -28,6 +28,12 @@ def kinds_of(kind: type) -> dict[str, object]:
     return found
 
 
+def required(kind: type) -> list[str]:
+    """Parameters of a class that have no default."""
+    parameters = _parameters(kind) or {}
+    return [name for name in kinds_of(kind) if parameters[name].default is _NONE]
+
+
 def checked(values: Mapping[str, object], kinds: Mapping[str, object]) -> dict[str, object]:
     """Values of settings, if they are of the kinds that a class takes; it checks their range.
 

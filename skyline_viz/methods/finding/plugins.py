@@ -23,10 +23,10 @@ from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.detection import Detection, timed
 from skyline_viz.method import Configurable, MethodError, UnnamedClassError
 from skyline_viz.methods.finding.importing import class_at, failed_in, offered
-from skyline_viz.methods.finding.parameters import MODEL, checked, kinds_of, made_with
+from skyline_viz.methods.finding.parameters import MODEL, checked, kinds_of, made_with, required
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.headed_npz import HeadedNpz
-from skyline_viz.system.settings import SettingError, name_with
+from skyline_viz.system.settings import SettingError, from_texts, name_with
 
 _named: set[str] = set()  # places of classes that somebody has named in this process
 
@@ -68,8 +68,7 @@ class PluggedIn:
 
     def own_name(self) -> str:
         """See `Configurable.own_name`."""
-        called = getattr(self.inner, "name", "")
-        base = called if isinstance(called, str) and called else type(self.inner).__name__
+        base = _called(self.inner, self.place) or type(self.inner).__name__
         return name_with(base, self.given, {})
 
     def labelled(self, label: str) -> Self:
@@ -159,7 +158,7 @@ class PluggedIn:
                 found = self.inner.detect(photo)
         except (MethodError, MemoryError):
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise failed_in(self.place, error) from error
         if isinstance(found, Detection):
             own: Detection = replace(found, method=self.name)
@@ -198,7 +197,7 @@ class PluggedLearner(PluggedIn):
             fitted = self.inner.fit(items, seed)
         except (MethodError, MemoryError):
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise failed_in(self.place, error) from error
         if not callable(getattr(fitted, "detect", None)):
             raise MethodError(f"fit of {self.place} returns no trained method.")
@@ -230,23 +229,39 @@ def as_method(method: object) -> Configurable:
     if isinstance(method, Configurable):
         return method
     kind = type(method)
-    given, called = made_with(method), getattr(method, "name", "")
-    own = isinstance(called, str) and called != getattr(kind, "name", "")  # and not of its class
-    plugged = _plugged(
-        method, f"{kind.__module__}:{kind.__qualname__}", given or {}, called if own else ""
-    )
+    place = f"{kind.__module__}:{kind.__qualname__}"
+    given, called = made_with(method), _called(method, place)
+    own = called != getattr(kind, "name", "")  # and not of its class
+    plugged = _plugged(method, place, given or {}, called if own else "")
     return plugged if given is not None else replace(plugged, unsaid=uuid4().hex)
 
 
-def plug_in(place: str, kind: Any) -> PluggedIn:  # noqa: ANN401 - anything may be at a place
-    """A method of a class that somebody has named.
+def plug_in(
+    place: str,
+    kind: Any,  # noqa: ANN401 - anything may be at a place
+    texts: Mapping[str, str],
+) -> PluggedIn:
+    """A method of a class that somebody has named, with the settings that it cannot do without.
+
+    Args:
+        place: Where the class is.
+        kind: The class.
+        texts: Settings as they are named.
 
     Raises:
-        MethodError: There is no such class, or it is no method.
+        MethodError: There is no such class, it is no method, or it needs a setting.
     """
     _check_detects(kind, place)
     _named.add(place)
-    return _plugged(_made(kind, place, {}, {}), place, {})
+    needs = required(kind)
+    if missing := [name for name in needs if name not in texts]:
+        raise MethodError(f"{place} needs the setting {missing[0]}: {place}:{missing[0]}=VALUE.")
+    try:
+        kinds = kinds_of(kind)
+        given = checked(from_texts({name: texts[name] for name in needs}, kinds, place), kinds)
+    except SettingError as error:
+        raise MethodError(f"{place}: {error}.") from error
+    return _plugged(_made(kind, place, given, {}), place, given)
 
 
 def plugged_from_file(
@@ -273,6 +288,15 @@ def plugged_from_file(
     return _plugged(_made(kind, place, given, model), place, given)
 
 
+def _called(inner: object, place: str) -> str:
+    """What an object calls itself; nothing where it does not."""
+    try:
+        called = getattr(inner, "name", "")
+    except (Exception, SystemExit) as error:
+        raise failed_in(place, error) from error
+    return called if isinstance(called, str) else ""
+
+
 def _check_detects(method: object, called: str) -> None:
     if not callable(getattr(method, "detect", None)):
         raise MethodError(f"{called} is no method: it has no detect(photo).")
@@ -292,5 +316,5 @@ def _kept_back(inner: object) -> str:
 def _made(kind: Any, place: str, settings: Mapping[str, object], model: Mapping[str, Any]) -> Any:  # noqa: ANN401
     try:
         return kind(**settings, **({MODEL: model} if model else {}))
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise failed_in(place, error) from error
