@@ -187,7 +187,9 @@ def test_untold_settings_are_not_shared(mine):
     assert rows_of(one.sharing(replace(one, label="x"))) == {10}
 
 
-@pytest.mark.parametrize("no_method", [3, None, object(), sv.Detector], ids=["number", "none", "object", "class"])
+@pytest.mark.parametrize(
+    "no_method", [3, None, object(), sv.Detector], ids=["number", "none", "object", "class"]
+)
 def test_what_is_no_method_is_one_sentence(no_method):
     with pytest.raises(MethodError, match=r"(no method: it has no detect|is a class).*\.$"):
         as_method(no_method)
