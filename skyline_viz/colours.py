@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import U8, read_only
+
+if TYPE_CHECKING:
+    from skyline_viz.bins import Bins
 
 Colour: TypeAlias = tuple[int, int, int]
 
@@ -75,3 +78,17 @@ def coloured(name: str, values: npt.NDArray[np.floating]) -> U8:
     """Colours ``(..., 3)`` uint8 RGB of values in [0, 1]; those beyond take the end's colour."""
     colours: U8 = colour_map(name)[np.clip(values * 256, 0, 255).astype(np.uint8)]
     return colours
+
+
+@lru_cache(maxsize=4)
+def bin_legend(bins: Bins) -> tuple[tuple[str, Colour], ...]:
+    """Words and colour of each bin: its orientation as a hue, brighter with strength."""
+    hues = coloured("twilight_shifted", np.arange(bins.orientations) / bins.orientations)
+    legend = []
+    for index in range(bins.count):
+        row, orientation = divmod(index, bins.orientations)
+        strength = row % bins.strengths
+        bright = 0.55 + 0.45 * strength / max(bins.strengths - 1, 1)
+        red, green, blue = (int(bright * one) for one in hues[orientation].tolist())
+        legend.append((bins.label(index), (red, green, blue)))
+    return tuple(legend)

@@ -129,6 +129,12 @@ class DetectorConfig:
             presets = {type(self).__name__: presets["default"]}
         return nearest_name(asdict(self), presets)
 
+    def described(self) -> dict[str, object]:
+        """All settings by name, for files and digests; of a class of somebody's also its place."""
+        kind = type(self)
+        ours = kind is DetectorConfig
+        return asdict(self) | ({} if ours else {"class": f"{kind.__module__}:{kind.__qualname__}"})
+
     def require_ours(self) -> None:
         """Refuse to be written to a file, which knows our settings only.
 

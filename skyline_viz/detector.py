@@ -5,20 +5,19 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
-from functools import cache, cached_property, lru_cache, partial
+from functools import cache, cached_property, partial
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32, U8, Bool, Int, check_photo
-from skyline_viz.bins import Bins
-from skyline_viz.colours import Colour, coloured
+from skyline_viz.colours import bin_legend
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.cost import CostModel, Seen
 from skyline_viz.datasets.item import Item
 from skyline_viz.detection import Detection, timed
-from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
+from skyline_viz.edges import candidate_edges, edge_pixels, edge_settings, to_grey
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
 from skyline_viz.path import shortest_path
@@ -100,20 +99,6 @@ class FilterDetection(Detection):
         ]
 
 
-@lru_cache(maxsize=4)
-def bin_legend(bins: Bins) -> tuple[tuple[str, Colour], ...]:
-    """Words and colour of each bin: its orientation as a hue, brighter with strength."""
-    hues = coloured("twilight_shifted", np.arange(bins.orientations) / bins.orientations)
-    legend = []
-    for index in range(bins.count):
-        row, orientation = divmod(index, bins.orientations)
-        strength = row % bins.strengths
-        bright = 0.55 + 0.45 * strength / max(bins.strengths - 1, 1)
-        red, green, blue = (int(bright * one) for one in hues[orientation].tolist())
-        legend.append((bins.label(index), (red, green, blue)))
-    return tuple(legend)
-
-
 @dataclass(frozen=True)
 class Detector:
     """Finds skylines.
@@ -156,7 +141,7 @@ class Detector:
         """Detectors learn the same filters when they see the same edges and have such filters."""
         training = self.training
         learned = (training.bins, training.filter_size, training.smoothness)
-        return f"filters {learned} of edges {_edge_settings(self.config)}"
+        return f"filters {learned} of edges {edge_settings(self.config)}"
 
     def fit(self, items: Iterable[Item], seed: int = 0) -> Detector:
         """The detector with filters that were learned from photos with truth.
@@ -228,23 +213,22 @@ class Detector:
         return replace(self, label=label)
 
     def header(self) -> dict[str, Any]:
-        """What its file says of it.
+        """What its file says of it."""
+        about = {"method": FILTERS, "label": self.label, "settings": self.config.described()}
+        return {**about, **self.bank.header()}
+
+    def model_bytes(self) -> int:
+        """See `Configurable.model_bytes`: of its filters."""
+        return self.bank.filters.nbytes
+
+    def require_told(self) -> None:
+        """See `Configurable.require_told`.
 
         Raises:
-            SettingError: Its settings, or those for which its bank was trained, are of a class of
-                somebody's, which no file gives back.
+            SettingError: Its settings, or those of its bank, are of a class of somebody's.
         """
         self.config.require_ours()
         self.bank.provenance.settings.require_ours()
-        return self.described()
-
-    def described(self) -> dict[str, Any]:
-        """All that there is to say of it, for its file and for a digest."""
-        about = {"method": FILTERS, "label": self.label, "settings": asdict(self.config)}
-        kind = type(self.config)
-        if kind is not DetectorConfig:
-            about["class"] = f"{kind.__module__}:{kind.__qualname__}"
-        return {**about, **self.bank.header()}
 
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
         """The arrays of its file."""
@@ -256,9 +240,9 @@ class Detector:
         Raises:
             SettingError: Its settings are of a class of somebody's.
         """
-        header = self.header()
+        self.require_told()
         with replacing(path) as temporary, temporary.open("wb") as file:
-            headed_npz.write(file, header, self.arrays())
+            headed_npz.write(file, self.header(), self.arrays())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str] | bytes) -> Detector:
@@ -367,7 +351,7 @@ class Detector:
         """
         config, bank = self.config, self.bank
         bins_agree = bank.bins == found.bank.bins
-        if not bins_agree or _edge_settings(config) != _edge_settings(found.config):
+        if not bins_agree or edge_settings(config) != edge_settings(found.config):
             return self.detect(found.photo)
         seconds = dict.fromkeys(found.seconds, 0.0)
         scores, cost = found.scores, found.cost
@@ -405,9 +389,3 @@ class Detector:
             config=config,
             bank=bank,
         )
-
-
-def _edge_settings(config: DetectorConfig) -> tuple[object, ...]:
-    """What `candidate_edges` depends on."""
-    thresholds = (config.low_threshold, config.high_threshold, config.fit_thresholds)
-    return (config.edge_source, *thresholds, config.frame)

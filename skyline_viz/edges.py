@@ -188,3 +188,9 @@ def _upside_down_sobel(channels: tuple[U8, ...]) -> tuple[I16, I16]:
             across[height - 1 - row, column] = best_x
             down[height - 1 - row, column] = -best_y
     return across, down
+
+
+def edge_settings(config: DetectorConfig) -> tuple[object, ...]:
+    """What `candidate_edges` depends on."""
+    thresholds = (config.low_threshold, config.high_threshold, config.fit_thresholds)
+    return (config.edge_source, *thresholds, config.frame)

@@ -140,6 +140,16 @@ class Configurable(Method, Protocol):
     def arrays(self) -> Mapping[str, npt.NDArray[Any]]:
         """What it has learned, by name."""
 
+    def model_bytes(self) -> int:
+        """Size of what it has learned, in bytes, as it lies in memory."""
+
+    def require_told(self) -> None:
+        """Refuse to be written to a file that would give back another one, or none.
+
+        Raises:
+            ValueError: Its settings or what it has learned cannot be told.
+        """
+
 
 @dataclass(frozen=True)
 class LearnedMethod(Configured):

@@ -52,7 +52,7 @@ class Methods:
     @property
     def given(self) -> bool:
         """Whether anything was named."""
-        return bool(self.method or self.network or self.ours)
+        return bool(self.method or self.network or self.sky_class or self.ours)
 
     def chosen(self, *, to_train: bool = False) -> list[Configurable]:
         """The methods in the order named, that of the short forms first; the default one if none.
@@ -61,13 +61,16 @@ class Methods:
             to_train: Whether those that learn are going to be trained.
 
         Raises:
-            UsageError: Two have one name, or what has learned already is to be trained.
+            UsageError: Two have one name, what has learned already is to be trained, or a class is
+                named of no network.
             MethodError: There is none of that name, its file is damaged, or it was not trained.
         """
         from skyline_viz.method import LearnedMethod
         from skyline_viz.methods.registry import find_method, has_learned
         from skyline_viz.methods.sky_network import SkyNetwork
 
+        if self.sky_class and self.network is None:
+            raise UsageError("--sky-class is a class of --network, which is not named.")
         if to_train and (file := next(filter(has_learned, self.method), self.bank)):
             raise UsageError(
                 f"{file} has learned already, and would be trained anew; name a method."

@@ -58,6 +58,8 @@ class OnTruth:
         """
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
+        if self.seed and not self.folds:
+            raise UsageError("--seed is that of a cross-validation, and --folds asks for none.")
         dataset = self.truths.open(self.dataset)
         return dataset, with_truth(dataset)
 

@@ -13,6 +13,7 @@ from skyline_viz.detector import Detector
 from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.results import PhotoResult
 from skyline_viz.method import Method, MethodError
+from skyline_viz.methods.finding.plugins import as_method
 from skyline_viz.methods.registry import find_method
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.warming import warm_up
@@ -52,7 +53,7 @@ def sweep(
         >>> found.summaries["delta=0"].mean > found.summaries["delta=4"].mean  # 0 is a level line
         True
     """
-    start = find_method(detector) if isinstance(detector, str) else detector
+    start = find_method(detector) if isinstance(detector, str) else as_method(detector)
     if not isinstance(start, Detector):
         raise MethodError(f"settings are swept of our own detector, not of {start.name}.")
     known = [one.name for one in fields(start.config)]

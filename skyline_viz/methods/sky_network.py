@@ -65,6 +65,10 @@ class SkyNetwork(HoldsNetwork, Configured):
         settings = {one: getattr(self, one) for one in self.kinds()}
         return name_with(self.network.name, settings, {"sky_class": 0, "columns": None})
 
+    def model_bytes(self) -> int:
+        """See `Configurable.model_bytes`: of its file."""
+        return self.network.stat().st_size
+
     def check(self) -> None:
         """Open the file.
 

@@ -227,6 +227,13 @@ class Configured:
         """What it has learned: nothing."""
         return {}
 
+    def model_bytes(self) -> int:
+        """Size of what it has learned, in bytes, as it lies in memory."""
+        return sum(array.nbytes for array in self.arrays().values())
+
+    def require_told(self) -> None:
+        """Settings that are fields can be written to a file."""
+
 
 def _kinds_of(method: Configured) -> dict[str, tuple[object, object, tuple[float, float]]]:
     """Type, default and range of each setting."""

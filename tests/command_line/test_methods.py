@@ -89,3 +89,10 @@ def test_what_has_learned_is_not_trained(tmp_path):
         with pytest.raises(UsageError, match="has learned already"):
             Methods((method,)).chosen(to_train=True)
     assert Methods(("svm-dcsi",)).chosen(to_train=True)[0].name == "svm-dcsi"
+
+
+def test_a_class_of_no_network_is_refused():
+    options = Methods(sky_class=3)
+    assert options.given  # so that every command looks at it
+    with pytest.raises(UsageError, match="--sky-class is a class of --network, which is not named"):
+        options.chosen()

@@ -38,6 +38,7 @@ def test_outputs_are_not_put_among_photos_not_even_those_without_truth(root):
     ("options", "says"),
     [
         ({"seed": -1}, "a seed is 0 or more, not -1"),
+        ({"seed": 4}, "--seed is that of a cross-validation, and --folds asks for none"),
     ],
 )
 def test_options_that_contradict_each_other_are_a_sentence(root, options, says):

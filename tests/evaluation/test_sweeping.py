@@ -41,6 +41,8 @@ def test_settings_and_values_that_make_no_sense_are_sentences(items):
         sweep(items, "delta", [0.5])
     with pytest.raises(ValueError, match="settings are swept of our own detector, not of edges"):
         sweep(items, "delta", [1], EdgesOnly())
+    with pytest.raises(ValueError, match=r"^3 is no method: it has no detect\(photo\)\.$"):
+        sweep(items, "delta", [1], 3)
 
 
 @dataclass(frozen=True)

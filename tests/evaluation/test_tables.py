@@ -6,6 +6,7 @@ import skyline_viz as sv
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation import tables
 from skyline_viz.evaluation.cross_validation import cross_validate, evaluate
+from skyline_viz.evaluation.timing import Timing
 
 
 @pytest.mark.parametrize("size", [5, 7])
@@ -37,3 +38,27 @@ def test_each_data_set_teaches_for_each_other_one(items):
     taught = Detector(config=config).fit(items[:3])
     (expected,) = evaluate(items[3:], taught).summaries.values()
     assert measured[0][2] == expected.mean
+
+
+def test_ours_are_known_by_what_they_are_and_not_by_their_names(items):
+    found = evaluate(items, ["mine=default", "default=edges", "paper:delta=4", "edges"])
+    table = tables.table_2({"hills": found})
+    measured = [row[0] for row in table.rows if "published" not in row[1]]
+    assert list(dict.fromkeys(measured)) == ["mine", "paper:delta=4"]
+    timings = [Timing(name, 2.0 ** (1 + at)) for at, name in enumerate(found.methods)]
+    rows = tables.table_6(timings, found.methods).rows[: len(timings)]
+    assert [(row[0], row[3]) for row in rows] == [
+        ("mine", "1.0"),
+        ("default", "2.0"),
+        ("paper:delta=4", "4.0"),
+        ("Edges only", "8.0"),
+    ]
+    rows = tables.table_6(timings[1:], found.methods).rows  # without the default one
+    assert rows[0][3] == "0.5"
+
+
+def test_what_published_figures_were_trained_on():
+    published = {row[0]: row[2] for row in tables.table_1({}, 2).rows}
+    assert published["Proposed"] == "CH1"
+    assert (published["Edges only"], published["G_r"]) == ("nothing", "nothing")
+    assert {published["SVM-mDCSI"], published["SIFT+HOG edges"]} == {"Basalt Hills (9)"}

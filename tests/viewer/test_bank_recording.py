@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.detector import bin_legend
+from skyline_viz.colours import bin_legend
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_pictures import cell_box, draw_bank
 from skyline_viz.viewer.bank_recording import log_filter_bank, log_path_bins, path_bins

@@ -84,13 +84,12 @@ def header_of(method: Configurable, trained: Trained | None = None) -> dict[str,
     Raises:
         MethodError: It keeps what it has learned to itself.
     """
-    if isinstance(method, Detector):
-        try:
-            return method.header()
-        except SettingError as error:
-            raise MethodError(str(error)) from error
-    if isinstance(method, PluggedIn):
+    try:
         method.require_told()
+    except SettingError as error:
+        raise MethodError(str(error)) from error
+    if isinstance(method, Detector):
+        return method.header()
     trained = trained or Trained(method.learned_from)
     return {
         "method": _key(method),
@@ -232,7 +231,7 @@ def method_digest(method: Method) -> str:
     """Digest of a method's settings and of what it has learned: another one finds other lines."""
     known = as_method(method)
     if isinstance(known, Detector):
-        return headed_npz.digest(known.described(), known.arrays())
+        return headed_npz.digest(known.header(), known.arrays())
     about = {
         "method": _key(known),
         "label": known.label,
@@ -255,8 +254,4 @@ def _content(value: object) -> object:
 
 def model_bytes(method: Method) -> int:
     """Size of what a method has learned, in bytes, as it lies in memory."""
-    if isinstance(method, Detector):
-        return method.bank.filters.nbytes
-    if isinstance(method, SkyNetwork):
-        return method.network.stat().st_size
-    return sum(array.nbytes for array in as_method(method).arrays().values())
+    return as_method(method).model_bytes()

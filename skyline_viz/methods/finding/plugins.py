@@ -95,8 +95,12 @@ class PluggedIn:
             return {}
         return {str(name): np.asarray(array) for name, array in model.items()}
 
+    def model_bytes(self) -> int:
+        """See `Configurable.model_bytes`."""
+        return sum(array.nbytes for array in self.arrays().values())
+
     def require_told(self) -> None:
-        """Refuse to be written to a file that would give back another one.
+        """See `Configurable.require_told`.
 
         Raises:
             MethodError: What it has learned, its settings or its class cannot be told.
@@ -130,8 +134,7 @@ class PluggedIn:
 
     def _with(self, inner: object, given: Mapping[str, object]) -> Self:
         """The same with another object of the class."""
-        back = _kept_back(inner)
-        return replace(self, inner=inner, given=given, kept_back=back)
+        return replace(self, inner=inner, given=given, kept_back=_kept_back(inner))
 
     def digest_of_code(self) -> str:
         """Digest of the file that its class is in: other code finds other lines.
