@@ -77,4 +77,4 @@ def test_many_segments_are_cut_short():
 def test_settings_that_differ_are_named():
     assert sv.DetectorConfig().changed() == []
     config = replace(sv.DetectorConfig(), clear_sky=0.0)
-    assert config.changed() == ["clear_sky 0.0"]
+    assert config.changed() == ["clear_sky 0"]
