@@ -26,6 +26,7 @@ def recorded(detection: Detection, truth: Skyline, name: str) -> bytes:
     with _one_at_a_time:
         recording = rr.RecordingStream(APPLICATION, recording_id=name)
         recording.set_log_time_enabled(False)
+        recording.reset_time()  # one of that name, before it in this thread, may have left its own
         stream = rr.binary_stream(recording)
         try:
             recording.send_recording_name(name)

@@ -81,6 +81,7 @@ def new_recording(path: str | os.PathLike[str], name: str) -> Iterator[rr.Record
                 APPLICATION, recording_id=recording_id(name), batcher_config=batches
             )
         recording.set_log_time_enabled(False)  # else a photo would be a film of its stages
+        recording.reset_time()  # an earlier one of that name, in this thread, may have left its own
         with saved(recording, temporary):
             try:
                 recording.send_recording_name(shown_in_viewer(printable(name)))

@@ -302,3 +302,18 @@ def test_maps_of_another_size_are_refused(tmp_path):
     ):
         sv.log_stages(recording, photo, {"score": np.zeros((3, 3))}, truth)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_times_of_an_earlier_recording_of_that_name_are_forgotten(tmp_path):
+    photo, truth = scene()
+    found = sv.Detector().detect(photo)
+    with sv.new_recording(tmp_path / "a.rrd", "one name") as recording:
+        recording.set_time("image", sequence=3)
+        sv.log_detection(recording, found, truth)
+    with sv.new_recording(tmp_path / "b.rrd", "one name") as recording:
+        sv.log_detection(recording, found, truth)
+    timelines = [
+        {name for _, batch in Read(tmp_path / file).chunks for name in batch.schema.names}
+        for file in ("a.rrd", "b.rrd")
+    ]
+    assert ["image" in names for names in timelines] == [True, False]
