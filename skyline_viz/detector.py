@@ -306,15 +306,7 @@ class Detector:
         with timed(seconds, "score"):
             scores = score_at(to_grey(photo), rows, columns, bins, bank.filters)
         with timed(seconds, "cost"):
-            seen = Seen(
-                photo=photo,
-                edges=edges,
-                strength=tensor.strength,
-                scores=scores,
-                config=config,
-                bank=bank,
-            )
-            model = CostModel.of(seen)
+            model = self._costs(photo, edges, tensor.strength, scores)
             cost = model.total()
         with timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
@@ -340,6 +332,18 @@ class Detector:
             bank=bank,
         )
 
+    def _costs(self, photo: U8, edges: Bool, strength: F32, scores: F32) -> CostModel:
+        """What the stages before the cost have seen, as terms."""
+        seen = Seen(
+            photo=photo,
+            edges=edges,
+            strength=strength,
+            scores=scores,
+            config=self.config,
+            bank=self.bank,
+        )
+        return CostModel.of(seen)
+
     def again(self, found: FilterDetection) -> FilterDetection:
         """Find the skyline of a detection's photo, as `detect` does.
 
@@ -364,15 +368,7 @@ class Detector:
         alike = replace(config, delta=found.config.delta, link_weight=found.config.link_weight)
         if bank is not found.bank or alike != found.config:
             with timed(seconds, "cost"):
-                seen = Seen(
-                    photo=found.photo,
-                    edges=found.edges,
-                    strength=found.strength,
-                    scores=scores,
-                    config=config,
-                    bank=bank,
-                )
-                model = CostModel.of(seen)
+                model = self._costs(found.photo, found.edges, found.strength, scores)
                 cost = model.total()
         with timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
