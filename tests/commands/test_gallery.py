@@ -11,16 +11,12 @@ from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
 from skyline_viz.gallery.store import Gallery
+from testing.programs.commands import write_flat
 
 
 @pytest.fixture
 def hills(tmp_path):
-    for number in range(5):
-        photo = np.full((50, 60, 3), 200, np.uint8)
-        photo[20 + number :] = 60
-        sv.write_photo(tmp_path / "hills" / "images" / f"h{number}.png", photo)
-        sv.Skyline(np.full(60, 21.0)).write_csv(tmp_path / "hills" / "masks" / f"h{number}.csv")
-    return tmp_path / "hills"
+    return write_flat(tmp_path / "hills", 5)
 
 
 def test_a_cause_that_there_is_not(say, hills, tmp_path):

@@ -5,6 +5,7 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.viewer import entities
+from testing.programs.commands import write_flat
 from testing.recordings import Read, verify
 
 PHOTO = "hills/images/h0.png"
@@ -12,12 +13,7 @@ PHOTO = "hills/images/h0.png"
 
 @pytest.fixture
 def hills(tmp_path):
-    for number in range(5):
-        photo = np.full((50, 60, 3), 200, np.uint8)
-        photo[20 + number :] = 60
-        sv.write_photo(tmp_path / "hills" / "images" / f"h{number}.png", photo)
-        sv.Skyline(np.full(60, 21.0)).write_csv(tmp_path / "hills" / "masks" / f"h{number}.csv")
-    return tmp_path / "hills"
+    return write_flat(tmp_path / "hills", 5)
 
 
 def test_without_a_display_it_says_what_to_do(say, hills):
