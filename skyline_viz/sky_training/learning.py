@@ -1,0 +1,60 @@
+"""A sky model from data sets: photos with truth in, an ONNX file out."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+
+from skyline_viz._version import __version__
+from skyline_viz.datasets.item import Item
+from skyline_viz.sky_training.examples import Example
+from skyline_viz.sky_training.exporting import exported
+from skyline_viz.sky_training.fitting import Progress, fit
+from skyline_viz.sky_training.sizes import SIZES, SizeName
+
+STEPS = 8000
+"""Batches that a model sees unless told otherwise."""
+
+
+def learn(
+    examples: Iterable[Example],
+    size: SizeName = "small",
+    *,
+    steps: int = STEPS,
+    seed: int = 0,
+    progress: Progress = lambda *_: None,
+) -> bytes:
+    """The ONNX file of a sky model that has learned from examples.
+
+    Args:
+        examples: See `examples_of`.
+        size: One of `sizes.SIZES`.
+        steps: How many batches it sees.
+        seed: The same seed and examples give the same model, on the same machine.
+        progress: What is told of each step.
+
+    Raises:
+        ValueError: There is no example.
+    """
+    known = list(examples)
+    if not known:
+        raise ValueError("a sky model needs at least one photo with a true skyline")
+    sources: dict[str, int] = {}
+    for one in known:
+        sources[one.source] = sources.get(one.source, 0) + 1
+    net = fit(known, SIZES[size], steps=steps, seed=seed, progress=progress)
+    about = {"size": size, "steps": steps, "seed": seed, "skyline-viz": __version__}
+    return exported(net, {"trained": json.dumps({"photos": sources, **about})})
+
+
+def examples_of(items: Iterable[Item], source: str) -> Iterator[Example]:
+    """The photos with truth of a data set, one at a time.
+
+    Raises:
+        PhotoError: A photo cannot be read.
+        SkylineError: A truth does not fit.
+    """
+    for item in items:
+        truth = item.truth()
+        if truth is not None and truth.visible.any():
+            yield Example.of(item.photo(), truth, source)
