@@ -7,6 +7,8 @@ whatever OpenCV said; `MEMORY` that it wanted too much memory.
 
 import os
 import sys
+import tempfile
+from pathlib import Path
 from typing import Any
 
 import cv2
@@ -27,10 +29,13 @@ def opened(content: bytes, *, classic: bool = False) -> Any:  # noqa: ANN401 - O
     Raises:
         cv2.error: OpenCV does not know such a network.
     """
-    buffer = np.frombuffer(content, np.uint8)
     if classic and hasattr(cv2.dnn, "ENGINE_CLASSIC"):
-        return cv2.dnn.readNetFromONNX(buffer, cv2.dnn.ENGINE_CLASSIC)
-    return cv2.dnn.readNetFromONNX(buffer)
+        # OpenCV 5.0 takes the engine for a file, and forgets it for a content in memory
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "network.onnx")
+            path.write_bytes(content)
+            return cv2.dnn.readNetFromONNX(str(path), cv2.dnn.ENGINE_CLASSIC)
+    return cv2.dnn.readNetFromONNX(np.frombuffer(content, np.uint8))
 
 
 def main() -> None:

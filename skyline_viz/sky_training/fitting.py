@@ -7,10 +7,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import torch
-from torch.nn import functional as F
+from torch.nn import functional
 
+from skyline_viz.arrays import F64
 from skyline_viz.sky_training.examples import Example
-from skyline_viz.sky_training.layers import layered
+from skyline_viz.sky_training.layers import layered, whole
 from skyline_viz.sky_training.network import SkyNet
 from skyline_viz.sky_training.sizes import Size
 from skyline_viz.sky_training.variation import varied
@@ -54,7 +55,7 @@ def fit(
     torch.manual_seed(seed)
     rng = np.random.default_rng(seed)
     net = SkyNet(size).to(memory_format=torch.channels_last)
-    average = copy.deepcopy(net)
+    average: SkyNet = copy.deepcopy(net)
     optimiser = torch.optim.AdamW(net.parameters(), lr=RATE, weight_decay=1e-2)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, RATE, total_steps=steps)
     share = shares(examples)
@@ -69,19 +70,20 @@ def fit(
         schedule.step()
         follow(average, net, min(MEMORY, step / (step + 20)))
         progress(step, float(loss.detach()))
-    return average.eval()
+    average.eval()
+    return average
 
 
-def shares(examples: Sequence[Example]) -> np.ndarray:
+def shares(examples: Sequence[Example]) -> F64:
     """How often each example is drawn, ``(n,)``, in sum 1."""
     sources = np.array([one.source for one in examples])
-    names, index, counts = np.unique(sources, return_inverse=True, return_counts=True)
+    _, index, counts = np.unique(sources, return_inverse=True, return_counts=True)
     share = 1 / np.sqrt(counts[index])
     return np.asarray(share / share.sum())
 
 
 def batch(
-    examples: Sequence[Example], share: np.ndarray, size: Size, rng: np.random.Generator
+    examples: Sequence[Example], share: F64, size: Size, rng: np.random.Generator
 ) -> tuple[torch.Tensor, torch.Tensor]:
     """Photos ``(N, 3, rows, columns)`` and their sky ``(N, 1, rows / 2, columns / 2)``."""
     photos, skies = [], []
@@ -91,12 +93,12 @@ def batch(
             others = [examples[other] for other in rng.choice(len(examples), 6, p=share)]
             layers = layered(one, others, rng)
         else:
-            layers = (one.photo.astype(np.float32) / 255, one.sky.astype(np.float32) / 255)
+            layers = whole(one)
         photo, sky = varied(layers, (size.rows, size.columns), rng)
         photos.append(torch.from_numpy(photo.transpose(2, 0, 1).copy()))
         skies.append(torch.from_numpy(sky)[None])
     stacked = torch.stack(photos).to(memory_format=torch.channels_last)
-    return stacked, F.avg_pool2d(torch.stack(skies), 2)
+    return stacked, functional.avg_pool2d(torch.stack(skies), 2)
 
 
 def judged(logits: torch.Tensor, sky: torch.Tensor) -> torch.Tensor:
@@ -111,14 +113,14 @@ def judged(logits: torch.Tensor, sky: torch.Tensor) -> torch.Tensor:
         logits: ``(N, 1, h, w)``.
         sky: ``(N, 1, h, w)``, in [0, 1].
     """
-    regions = F.binary_cross_entropy_with_logits(logits, sky)
+    regions = functional.binary_cross_entropy_with_logits(logits, sky)
     height = sky.shape[2]
     rows = sky.sum(2)  # where the sky of each column ends
     places = torch.arange(height, dtype=sky.dtype).view(1, 1, -1, 1)
     above = (rows.unsqueeze(2) - places).clamp(0, 1)
     one_line = (above - sky).abs().mean(2) < 0.02
-    sums = F.pad(logits.cumsum(2), (0, 0, 1, 0))
-    likelihood = F.log_softmax(sums, 2)
+    sums = functional.pad(logits.cumsum(2), (0, 0, 1, 0))
+    likelihood = functional.log_softmax(sums, 2)
     before = rows.floor().clamp(max=height - 1).long().unsqueeze(2)
     share = rows.unsqueeze(2) - before
     of_row = likelihood.gather(2, before) * (1 - share) + likelihood.gather(2, before + 1) * share

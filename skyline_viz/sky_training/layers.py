@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import cv2
 import numpy as np
 
-from skyline_viz.arrays import F32
+from skyline_viz.arrays import F32, U8
 from skyline_viz.sky_training.examples import COLUMNS, ROWS, Example
 
 Layers = tuple[F32, F32]
@@ -29,8 +29,7 @@ def layered(near: Example, others: Sequence[Example], rng: np.random.Generator) 
         others: Examples to take from; those with a skyline lend terrain too.
         rng: What is chosen.
     """
-    photo = near.photo.astype(np.float32) / 255
-    sky = near.sky.astype(np.float32) / 255
+    photo, sky = whole(near)
     drop = 0.0
     if rng.random() < 0.6:  # room above it
         drop = float(rng.uniform(0, 0.35)) * max(ROWS - 1.15 * float(sky.sum(axis=0).max()), 0)
@@ -38,10 +37,21 @@ def layered(near: Example, others: Sequence[Example], rng: np.random.Generator) 
     background, behind = _far(others, rng)
     if rng.random() < 0.5:  # light of the same day
         gain = _mean(background) / np.maximum(_mean(photo), 0.05)
-        photo = np.clip(photo * np.clip(gain, 0.4, 2.0) ** rng.uniform(0, 1), 0, 1)
+        gain = np.clip(gain, 0.4, 2.0) ** rng.uniform(0, 1)
+        photo = np.clip(photo * gain, 0, 1).astype(np.float32)
     soft = sky if rng.random() < 0.5 else cv2.GaussianBlur(sky, (0, 0), rng.uniform(0.5, 1.2))
     mixed = photo * (1 - soft[..., None]) + background * soft[..., None]
-    return mixed, sky * behind
+    return mixed.astype(np.float32), (sky * behind).astype(np.float32)
+
+
+def whole(one: Example) -> Layers:
+    """An example as it is."""
+    return in_unit(one.photo), in_unit(one.sky)
+
+
+def in_unit(image: U8) -> F32:
+    """Levels of 255 as numbers in [0, 1]."""
+    return np.asarray(image.astype(np.float32) / np.float32(255), np.float32)
 
 
 def _far(others: Sequence[Example], rng: np.random.Generator) -> Layers:
@@ -65,7 +75,7 @@ def _with_range(
     background: F32, share: F32, one: Example, haze: float, rng: np.random.Generator
 ) -> Layers:
     """A background with the terrain of an example in front, seen through haze."""
-    terrain, sky = one.photo.astype(np.float32) / 255, one.sky.astype(np.float32) / 255
+    terrain, sky = whole(one)
     if rng.random() < 0.5:
         terrain, sky = terrain[:, ::-1], sky[:, ::-1]
     drop = rng.uniform(-0.15, 0.25) * ROWS
@@ -76,7 +86,7 @@ def _with_range(
     tint = rng.normal(0, 0.02, 3) - rng.uniform(0.01, 0.08) * rng.choice([-0.5, 1, 1, 1])
     hazed = terrain * (1 - haze) + np.clip(air + tint, 0, 1).astype(np.float32) * haze
     mixed = hazed * (1 - sky[..., None]) + background * sky[..., None]
-    return np.clip(mixed, 0, 1).astype(np.float32), share * sky
+    return np.clip(mixed, 0, 1).astype(np.float32), (share * sky).astype(np.float32)
 
 
 def _sky_of(one: Example) -> F32 | None:
@@ -85,7 +95,7 @@ def _sky_of(one: Example) -> F32 | None:
     if rows < LEAST_SKY * ROWS:
         return None
     stretched = cv2.resize(one.photo[:rows], (COLUMNS, ROWS), interpolation=cv2.INTER_LINEAR)
-    return stretched.astype(np.float32) / 255
+    return in_unit(stretched)
 
 
 def _lowered(image: F32, rows: float) -> F32:

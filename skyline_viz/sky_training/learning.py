@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
+
+import numpy as np
 
 from skyline_viz._version import __version__
+from skyline_viz.arrays import U8
 from skyline_viz.datasets.item import Item
-from skyline_viz.sky_training.examples import Example
+from skyline_viz.sky_model import SkyModel
+from skyline_viz.sky_training.examples import Example, squeezed
 from skyline_viz.sky_training.exporting import exported
 from skyline_viz.sky_training.fitting import Progress, fit
 from skyline_viz.sky_training.sizes import SIZES, SizeName
@@ -27,7 +31,7 @@ def learn(
     """The ONNX file of a sky model that has learned from examples.
 
     Args:
-        examples: See `examples_of`.
+        examples: See `example_of`.
         size: One of `sizes.SIZES`.
         steps: How many batches it sees.
         seed: The same seed and examples give the same model, on the same machine.
@@ -47,14 +51,30 @@ def learn(
     return exported(net, {"trained": json.dumps({"photos": sources, **about})})
 
 
-def examples_of(items: Iterable[Item], source: str) -> Iterator[Example]:
-    """The photos with truth of a data set, one at a time.
+def example_of(item: Item, source: str, teacher: SkyModel | None = None) -> Example | None:
+    """What there is to learn from a photo of a data set; None for nothing.
+
+    Args:
+        item: A photo, with its truth or without.
+        source: Name of the data set.
+        teacher: A network that says what is sky in a photo without truth.
 
     Raises:
-        PhotoError: A photo cannot be read.
-        SkylineError: A truth does not fit.
+        PhotoError: The photo cannot be read.
+        SkylineError: Its truth does not fit.
     """
-    for item in items:
-        truth = item.truth()
-        if truth is not None and truth.visible.any():
-            yield Example.of(item.photo(), truth, source)
+    truth = item.truth()
+    if truth is not None:
+        return Example.of(item.photo(), truth, source) if truth.visible.any() else None
+    return taught(item.photo(), teacher, source) if teacher is not None else None
+
+
+def taught(photo: U8, teacher: SkyModel, source: str) -> Example:
+    """The example of a photo ``(H, W, 3)`` of which a teacher says what is sky.
+
+    It sees the photo mirrored as well, and the mean of both is taken.
+    """
+    mirrored = np.ascontiguousarray(photo[:, ::-1])
+    sky = (teacher.sky(photo) + teacher.sky(mirrored)[:, ::-1]) / 2
+    levels = np.rint(sky * 255).astype(np.uint8)
+    return Example(squeezed(photo), squeezed(levels), source)

@@ -6,11 +6,11 @@ deviation. It is computed in the network, from means over coarse blocks, which c
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from itertools import pairwise
 
 import torch
 from torch import nn
-from torch.nn import functional as F
+from torch.nn import functional
 
 from skyline_viz.sky_training.sizes import Size
 
@@ -30,14 +30,14 @@ def separable(inputs: int, outputs: int, stride: int = 1) -> nn.Sequential:
     )
 
 
-class SkyNet(nn.Module):
+class SkyNet(nn.Module):  # type: ignore[misc]  # torch may be missing
     """``(N, 3, h, w)`` RGB in [0, 1] -> ``(N, 1, h / 2, w / 2)`` logits of sky."""
 
     def __init__(self, size: Size) -> None:
         super().__init__()
         self.size = size
         widths = size.widths
-        pairs = list(zip(widths[:-1], widths[1:], strict=True))
+        pairs = list(pairwise(widths))
         self.stem = nn.Sequential(
             nn.Conv2d(4, widths[0], 3, 2, 1, bias=False), nn.BatchNorm2d(widths[0])
         )
@@ -55,23 +55,31 @@ class SkyNet(nn.Module):
     def forward(self, photo: torch.Tensor) -> torch.Tensor:
         """Logits of sky."""
         grey = photo.mean(1, keepdim=True)
-        blocks = F.avg_pool2d(
-            torch.cat([grey, grey * grey], 1), BLOCK, BLOCK // 2, BLOCK // 4,
+        blocks = functional.avg_pool2d(
+            torch.cat([grey, grey * grey], 1),
+            BLOCK,
+            BLOCK // 2,
+            BLOCK // 4,
             count_include_pad=False,
         )
-        around = F.interpolate(blocks, size=photo.shape[-2:], mode="bilinear", align_corners=False)
+        around = functional.interpolate(
+            blocks, size=photo.shape[-2:], mode="bilinear", align_corners=False
+        )
         mean, square = around[:, :1], around[:, 1:]
-        deviation = torch.sqrt(F.relu(square - mean * mean) + 2e-5)
+        deviation = torch.sqrt(functional.relu(square - mean * mean) + 2e-5)
         stem = self.stem(torch.cat([photo * 2 - 1, (grey - mean) / deviation * 0.5], 1))
-        levels = [F.relu(stem) + self.place]
+        levels = [functional.relu(stem) + self.place]
         for block in self.down:
             levels.append(block(levels[-1]))
         coarse = levels.pop()
-        coarse = coarse + F.relu(self.whole(coarse.mean((2, 3), keepdim=True)))
+        coarse = coarse + functional.relu(self.whole(coarse.mean((2, 3), keepdim=True)))
         for block in reversed(self.up):
             fine = levels.pop()
-            wider = F.interpolate(
-                coarse, size=fine.shape[-2:], mode="bilinear", align_corners=False
-            )
-            coarse = block(torch.cat([wider, fine], 1))
+            coarse = block(torch.cat([wider(coarse, fine), fine], 1))
         return self.out(coarse)
+
+
+def wider(coarse: torch.Tensor, like: torch.Tensor) -> torch.Tensor:
+    """Maps interpolated to the rows and columns of other ones."""
+    size = like.shape[-2:]
+    return functional.interpolate(coarse, size=size, mode="bilinear", align_corners=False)
