@@ -111,7 +111,7 @@ def varied(web: Path) -> str:
     examples = [(item.photo(), item.truth()) for item in items]
     rows = {name: [name] for name in VARIATIONS}
     for config in PRESETS.values():
-        training = TrainingConfig(detector=config)
+        training = TrainingConfig.of(config)
         detectors = [
             Detector(train(examples[1 - fold :: 2], config=training), config) for fold in (0, 1)
         ]
