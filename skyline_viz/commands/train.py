@@ -15,6 +15,9 @@ from skyline_viz.command_line.settings import Preset
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig, TrainingConfig
+from skyline_viz.files import replacing
+from skyline_viz.sky_model import SkyModel
+from skyline_viz.sky_training.sizes import STEPS, SizeName
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
@@ -43,6 +46,15 @@ class Train:
     method: Annotated[str, tyro.conf.arg(metavar="METHOD")] = "default"
     """What to train: our detector, with settings such as paper:delta=4, one of the earlier methods
     that learn, or a class of yours, package.module:Class."""
+
+    sky_model: SizeName | None = None
+    """Learn a sky model of this size instead of filters, for --sky FILE.onnx; takes an hour."""
+
+    teacher: Annotated[Path | None, tyro.conf.arg(metavar="FILE.onnx")] = None
+    """Sky network that says what is sky in photos without a truth, for --sky-model."""
+
+    steps: int = STEPS
+    """How many batches of 16 photos a sky model sees."""
 
     pretrained: Annotated[Path | None, tyro.conf.arg(metavar="FILE.pth")] = None
     """Pretrained VGG-16 weights for the FCNs and SegNet, which then have its full width."""
@@ -73,6 +85,10 @@ class Train:
             raise UsageError(f"{self.out} is a folder; name a file for the detector.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
+        if self.sky_model is not None:
+            return self._train_sky(self.sky_model)
+        if self.teacher is not None or self.steps != STEPS:
+            raise UsageError("--teacher and --steps are for a sky model; name its --sky-model.")
         sets, photos = self._sets()
         output_folder(self.out.parent, ())
         from skyline_viz.detector import Detector
@@ -87,20 +103,42 @@ class Train:
             return self._train_ours(sets, photos, method)
         return self._train_method(sets, method)
 
-    def _sets(self) -> tuple[dict[str, list[DatasetItem]], int]:
-        """The photos with a truth of each data set by its name, and the number of all photos."""
+    def _sets(self, *, all_photos: bool = False) -> tuple[dict[str, list[DatasetItem]], int]:
+        """The photos with a truth of each data set by its name, and the number of all photos.
+
+        Or all photos, with a truth or without.
+        """
         sets: dict[str, list[DatasetItem]] = {}
         photos = 0
         for folder in self.datasets:
             dataset = self.truths.open(folder)
             if dataset.name in sets:
                 raise UsageError(f"two data sets are called {dataset.name}; rename a folder.")
-            sets[dataset.name] = with_truth(dataset)
+            sets[dataset.name] = list(dataset) if all_photos else with_truth(dataset)
             photos += len(dataset)
         if len(sets) > 1:  # names are those of one data set only
             for name, items in sets.items():
                 sets[name] = [replace(item, name=f"{name}/{item.name}") for item in items]
         return sets, photos
+
+    def _train_sky(self, size: SizeName) -> int:
+        """Train a sky model; photos without a truth count where there is a teacher."""
+        if self.training != TrainingConfig() or self.method != "default":
+            raise UsageError("--method, --preset and --training are for filters, not sky models.")
+        if self.steps < 1:
+            raise UsageError(f"a sky model sees 1 batch or more, not {self.steps}.")
+        teacher = SkyModel.load(self.teacher) if self.teacher else None
+        sets, photos = self._sets(all_photos=teacher is not None)
+        output_folder(self.out.parent, ())
+        workers = foresee([item for items in sets.values() for item in items], self.workers)
+        model, failures = evaluation.learn_sky(
+            sets, size, teacher=teacher, steps=self.steps, seed=self.seed, workers=workers
+        )
+        with replacing(self.out) as temporary:
+            temporary.write_bytes(model.network)
+        tell(f"photos used  {sum(map(len, sets.values())) - len(failures)} of {photos}")
+        tell(f"written      {self.out}, {self.out.stat().st_size:,} bytes")
+        return status_after(failures)
 
     def _train_ours(
         self, sets: Mapping[str, Sequence[DatasetItem]], photos: int, method: Detector

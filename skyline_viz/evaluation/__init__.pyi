@@ -12,6 +12,7 @@ from .output_files import write_evaluation as write_evaluation
 from .results import PhotoResult as PhotoResult
 from .results import Summary as Summary
 from .results import worst as worst
+from .sky_runs import learn_sky as learn_sky
 from .sweeping import sweep as sweep
 from .tables import Table as Table
 from .tables import table_1 as table_1

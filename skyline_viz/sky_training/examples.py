@@ -9,6 +9,8 @@ import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, check_photo
+from skyline_viz.datasets.item import Item
+from skyline_viz.sky_model import SkyModel
 from skyline_viz.skyline import Skyline, SkylineError
 
 ROWS, COLUMNS = 384, 256
@@ -58,6 +60,35 @@ class Example:
         rows: F32 = share.sum(axis=0)
         above = np.clip(rows - np.arange(ROWS, dtype=np.float32)[:, None], 0, 1)
         return rows if np.abs(share - above).mean() < STEP_SHARE else None
+
+
+def example_of(item: Item, source: str, teacher: SkyModel | None = None) -> Example | None:
+    """What there is to learn from a photo of a data set; None for nothing.
+
+    Args:
+        item: A photo, with its truth or without.
+        source: Name of the data set.
+        teacher: A network that says what is sky in a photo without truth.
+
+    Raises:
+        PhotoError: The photo cannot be read.
+        SkylineError: Its truth does not fit.
+    """
+    truth = item.truth()
+    if truth is not None:
+        return Example.of(item.photo(), truth, source) if truth.visible.any() else None
+    return taught(item.photo(), teacher, source) if teacher is not None else None
+
+
+def taught(photo: U8, teacher: SkyModel, source: str) -> Example:
+    """The example of a photo ``(H, W, 3)`` of which a teacher says what is sky.
+
+    It sees the photo mirrored as well, and the mean of both is taken.
+    """
+    mirrored = np.ascontiguousarray(photo[:, ::-1])
+    sky = (teacher.sky(photo) + teacher.sky(mirrored)[:, ::-1]) / 2
+    levels = np.rint(sky * 255).astype(np.uint8)
+    return Example(squeezed(photo), squeezed(levels), source)
 
 
 def squeezed(image: U8) -> U8:

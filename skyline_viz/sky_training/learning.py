@@ -5,19 +5,11 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 
-import numpy as np
-
 from skyline_viz._version import __version__
-from skyline_viz.arrays import U8
-from skyline_viz.datasets.item import Item
-from skyline_viz.sky_model import SkyModel
-from skyline_viz.sky_training.examples import Example, squeezed
+from skyline_viz.sky_training.examples import Example
 from skyline_viz.sky_training.exporting import exported
 from skyline_viz.sky_training.fitting import Progress, fit
-from skyline_viz.sky_training.sizes import SIZES, SizeName
-
-STEPS = 8000
-"""Batches that a model sees unless told otherwise."""
+from skyline_viz.sky_training.sizes import SIZES, STEPS, SizeName
 
 
 def learn(
@@ -31,7 +23,7 @@ def learn(
     """The ONNX file of a sky model that has learned from examples.
 
     Args:
-        examples: See `example_of`.
+        examples: See `examples.example_of`.
         size: One of `sizes.SIZES`.
         steps: How many batches it sees.
         seed: The same seed and examples give the same model, on the same machine.
@@ -49,32 +41,3 @@ def learn(
     net = fit(known, SIZES[size], steps=steps, seed=seed, progress=progress)
     about = {"size": size, "steps": steps, "seed": seed, "skyline-viz": __version__}
     return exported(net, {"trained": json.dumps({"photos": sources, **about})})
-
-
-def example_of(item: Item, source: str, teacher: SkyModel | None = None) -> Example | None:
-    """What there is to learn from a photo of a data set; None for nothing.
-
-    Args:
-        item: A photo, with its truth or without.
-        source: Name of the data set.
-        teacher: A network that says what is sky in a photo without truth.
-
-    Raises:
-        PhotoError: The photo cannot be read.
-        SkylineError: Its truth does not fit.
-    """
-    truth = item.truth()
-    if truth is not None:
-        return Example.of(item.photo(), truth, source) if truth.visible.any() else None
-    return taught(item.photo(), teacher, source) if teacher is not None else None
-
-
-def taught(photo: U8, teacher: SkyModel, source: str) -> Example:
-    """The example of a photo ``(H, W, 3)`` of which a teacher says what is sky.
-
-    It sees the photo mirrored as well, and the mean of both is taken.
-    """
-    mirrored = np.ascontiguousarray(photo[:, ::-1])
-    sky = (teacher.sky(photo) + teacher.sky(mirrored)[:, ::-1]) / 2
-    levels = np.rint(sky * 255).astype(np.uint8)
-    return Example(squeezed(photo), squeezed(levels), source)

@@ -31,3 +31,6 @@ SIZES: dict[SizeName, Size] = {
     "large": Size(256, 160, (32, 64, 128, 192, 224), 1),
 }
 """By name."""
+
+STEPS = 5000
+"""Batches that a model sees unless told otherwise."""

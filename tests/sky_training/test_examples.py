@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from skyline_viz.arrays import U8
-from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.sky_training.examples import COLUMNS, ROWS, Example
+from skyline_viz.skyline import Skyline, SkylineError
 
 
 def photo(height=60, width=90) -> U8:
