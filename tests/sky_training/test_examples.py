@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from skyline_viz.arrays import U8
-from skyline_viz.sky_training.examples import COLUMNS, ROWS, Example
+from skyline_viz.datasets.item import LoadedItem
+from skyline_viz.sky_training.examples import COLUMNS, ROWS, Example, example_of
 from skyline_viz.skyline import Skyline, SkylineError
 
 
@@ -40,3 +41,25 @@ def test_a_truth_that_does_not_fit_is_refused():
     hidden = Skyline(rows=np.zeros(90, np.float32), visible=np.zeros(90, bool))
     with pytest.raises(SkylineError, match="visible"):
         Example.of(photo(), hidden, "made")
+
+
+class Teacher:
+    """Says that the left half is sky, whatever it sees."""
+
+    def sky(self, photo: U8):
+        del photo
+        return np.repeat(np.arange(8)[None] < 4, 6, axis=0).astype(np.float32)
+
+
+def test_a_photo_without_truth_takes_what_a_teacher_says_of_it_and_its_mirror():
+    item = LoadedItem("p", photo())
+    assert example_of(item, "made") is None
+    example = example_of(item, "made", Teacher())
+    assert example.source == "made"
+    np.testing.assert_allclose(example.sky, 128, atol=1)  # left and right, half of each
+
+
+def test_a_truth_counts_for_more_than_a_teacher():
+    item = LoadedItem("p", photo(), Skyline(rows=np.full(90, 30, np.float32)))
+    example = example_of(item, "made", Teacher())
+    np.testing.assert_allclose(example.line, ROWS / 2, atol=0.2)

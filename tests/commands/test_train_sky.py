@@ -1,0 +1,56 @@
+"""``skyline-viz train --sky-model``: the network that it writes, and what it refuses."""
+
+import pytest
+
+from skyline_viz.sky_model import SkyModel
+from testing.deep import needs_deep
+from testing.programs.commands import write_scene, write_scenes
+
+SHORT = ("--sky-model", "small", "--steps", "2", "--out", "sky.onnx")
+
+
+@needs_deep
+def test_a_sky_model_is_written_and_runs(say, hills, tmp_path):
+    status, out, err = say("train", hills, *SHORT)
+    assert (status, err) == (0, "")
+    assert "4 of 4" in out
+    assert SkyModel.load(tmp_path / "sky.onnx").name == "sky.onnx"
+
+
+@needs_deep
+def test_a_teacher_labels_photos_without_a_truth(say, hills, tmp_path):
+    assert say("train", hills, *SHORT)[0] == 0
+    write_scene(tmp_path / "bare" / "p0.png", 0)
+    taught = ("--sky-model", "small", "--steps", "1", "--out", "b.onnx", "--teacher", "sky.onnx")
+    status, out, _ = say("train", hills, "bare", *taught)
+    assert status == 0
+    assert "5 of 5" in out
+
+
+@needs_deep
+def test_training_goes_on_past_a_bad_photo(say, tmp_path):
+    write_scenes(tmp_path / "some", 2)
+    (tmp_path / "some" / "images" / "p0.png").write_bytes(b"no photo")
+    status, out, err = say("train", "some", *SHORT)
+    assert status == 1
+    assert "1 of 2" in out
+    assert "p0.png" in err
+
+
+@pytest.mark.parametrize(
+    ("options", "why"),
+    [
+        (("--teacher", "t.onnx"), "--sky-model"),
+        (("--steps", "7"), "--sky-model"),
+        (("--sky-model", "small", "--steps", "0"), "1 batch"),
+        (("--sky-model", "small", "--method", "paper"), "--method"),
+        (("--sky-model", "small", "--teacher", "missing.onnx"), "missing.onnx"),
+    ],
+    ids=["teacher alone", "steps alone", "no steps", "a method", "no teacher there"],
+)
+def test_what_does_not_fit_is_refused_in_one_sentence(say, hills, tmp_path, options, why):
+    status, out, err = say("train", hills, *options, "--out", "x.onnx")
+    assert (status, out) == (2, "")
+    assert why in err
+    assert len(err.strip().splitlines()) == 1
+    assert not (tmp_path / "x.onnx").exists()
