@@ -3,8 +3,9 @@
     python -m benchmarks [DATA]
 
 DATA is a folder with the real data sets: ``web_dataset`` (photos with truth, in the layout in
-which the authors publish the Web set) and, if there, ``new_dataset`` (large photos). Without it
-only the rendered samples are measured, and the report says so.
+which the authors publish the Web set) and, if there, ``mountains`` and ``uav`` (photos of other
+cameras with truth) and ``new_dataset`` (large photos). Without it only the rendered samples are
+measured, and the report says so.
 """
 
 import datetime as dt
@@ -43,7 +44,11 @@ def main() -> None:
     if web is None or not web.is_dir():
         parts.append(f"Real photographs: **not run**, {web or 'no folder of data'} is not there.")
     else:
-        parts += [accuracy.cross_validated(web), robustness.varied(web), filters.studies(web)]
+        parts += [
+            accuracy.cross_validated(web),
+            robustness.varied(web),
+            filters.studies(web.parent),
+        ]
         parts.append(methods.compared(web))
     parts += [accuracy.rendered(ROOT / "sample_data"), speed.measured(web, ROOT / "sample_data")]
     parts.append(recordings.measured(web, ROOT / "sample_data"))

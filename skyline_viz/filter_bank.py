@@ -92,7 +92,7 @@ class FilterBank:
     Examples:
         >>> bank = FilterBank.default()
         >>> bank.filters.shape, int(bank.starved.sum())
-        ((288, 7, 7), 181)
+        ((288, 7, 7), 120)
     """
 
     filters: F32

@@ -67,6 +67,9 @@ def test_several_data_sets_are_learned_from_together(say, hills, tmp_path):
     np.testing.assert_array_equal(bank.filters, expected.filters)
     assert bank.provenance == expected.provenance
     assert bank.provenance.dataset == "hills, other"
+    for one in (hills, "other"):
+        _, _, err = say("evaluate", one, "--bank", "b.npz")
+        assert f"was trained on {sv.open_dataset(one).name}, so this is no test" in err
 
 
 def test_a_bad_photo_of_several_data_sets_is_named_with_its_own(say, hills, tmp_path):
