@@ -1,0 +1,192 @@
+"""Views of other places: water, woods, villages, people, and the ground from the air."""
+
+from dataclasses import replace
+
+from skyline_viz.rendering.air import Bank, Overcast
+from skyline_viz.rendering.built import Houses, People, Wires
+from skyline_viz.rendering.camera import Camera
+from skyline_viz.rendering.mountains import Range
+from skyline_viz.rendering.plain import Plain
+from skyline_viz.rendering.plants import Trees
+from skyline_viz.rendering.sky import Sky
+from skyline_viz.rendering.terrain import Light
+from skyline_viz.rendering.views import MOODS, NOON, Choice, Layer, View, forest, hills, near
+from skyline_viz.rendering.water import Water
+from skyline_viz.rendering.weather_views import shaded
+
+
+def _day(c: Choice, low: float) -> tuple[Sky, Light]:
+    """Sky and light of an hour of the day, with or without clouds, for a horizon at row `low`."""
+    mood = MOODS[c.index(4)]
+    veil, heaps = max(0.0, c.between(-0.3, 0.6)), max(0, c.index(16) - 7)
+    bright = c.between(0.75, 1.1)
+    zenith, horizon = shaded(mood.zenith, bright), shaded(mood.horizon, bright)
+    sky = Sky(zenith, horizon, veil=veil, heaps=heaps, low=low)
+    return sky, Light(c.sun(c.between(0.3, 0.66)), mood.sunlight, mood.skylight, mood.haze)
+
+
+def _far(c: Choice, top: float) -> Range:
+    """Mountains in the distance."""
+    return Range(
+        top,
+        c.size(0.2, 0.42),
+        ("alpine", "heath", "rock", "snow")[c.index(4)],
+        peaks=5 + c.index(5),
+        haze=c.between(0.15, 0.8),
+        mist=0.15,
+        snow=c.between(0.2, 1.1),
+    )
+
+
+def sea(c: Choice) -> View:
+    """The horizon of a sea, open or behind headlands and islands."""
+    horizon = c.between(0.3, 0.66)
+    sky, light = _day(c, horizon)
+    hazy = c.index(3) == 0
+    water = Water(
+        horizon,
+        c.between(0.15, 1.0),
+        ((0.02, 0.07, 0.11), (0.01, 0.10, 0.11), (0.06, 0.09, 0.09))[c.index(3)],
+        c.between(0.5, 0.9) if hazy else c.between(0.0, 0.4),
+    )
+    if hazy:
+        light = replace(light, haze=shaded(sky.horizon, c.between(0.85, 0.97)))
+    coast = [
+        Range(
+            horizon - c.between(0.02, 0.16),
+            c.size(0.16, 0.26),
+            ("heath", "rock")[c.index(2)],
+            peaks=2 + c.index(5),
+            steep=0.3,
+            haze=c.between(0.2, 0.85),
+            lean=c.between(0.2, 1.3),
+            tilt=0.08,
+        )
+        for _ in range(c.index(3))
+    ]
+    bank = Bank(horizon - c.between(0.0, 0.1), 0.2, (0.9, 0.9, 0.9), shaded(sky.horizon, 0.7))
+    back: tuple[Layer, ...] = (bank,) if c.index(3) == 0 else ()
+    beach: tuple[Layer, ...] = ()
+    if c.index(3) == 0:
+        beach = (replace(hills(c, 0.78, trees=0), cover="rock"),)
+    return View(sky, light, (*back, *coast, water, *beach))
+
+
+def lake(c: Choice) -> View:
+    """Mountains and their image in a lake."""
+    shore = c.between(0.45, 0.7)
+    sky, light = _day(c, shore)
+    mountains = _far(c, shore - c.between(0.22, 0.4))
+    wood = replace(forest(c, shore - 0.08, haze=c.between(0.0, 0.3)), relief=c.size(0.1, 0.16))
+    water = Water(shore, c.between(0.0, 0.35))
+    trees = Trees("conifer", 3 + c.index(8), 1.02, c.between(0.2, 0.7), right=0.35)
+    ahead: tuple[Layer, ...] = (trees,) if c.index(3) == 0 else ()
+    return View(sky, light, (mountains, wood, water, *ahead))
+
+
+def conifers(c: Choice) -> View:
+    """Firs before the mountains; the tallest reach above the ridge."""
+    top = c.between(0.22, 0.45)
+    sky, light = _day(c, top + 0.15)
+    if c.index(3) == 0:
+        light = replace(light, sunlight=(0.12, 0.12, 0.12))
+    left = c.between(0.0, 0.6) if c.index(2) else 0.0
+    back = Trees("conifer", 10 + c.index(30), c.between(0.8, 0.9), c.between(0.15, 0.3), haze=0.15)
+    front = Trees(
+        "conifer",
+        3 + c.index(14),
+        1.02,
+        c.between(0.35, 0.95),
+        left,
+        left + c.between(0.3, 1.0),
+    )
+    hill = forest(c, c.between(0.6, 0.75))
+    return View(sky, light, (_far(c, top), hill, back, front), contrast=c.between(0.1, 0.4))
+
+
+def grove(c: Choice) -> View:
+    """Broad or bare trees before hills, some of them above the ridge."""
+    top = c.between(0.28, 0.5)
+    sky, light = _day(c, top + 0.15)
+    shape = ("crown", "crown", "bare")[c.index(3)]
+    autumn = ((0.085, 0.105, 0.035), (0.26, 0.13, 0.03), (0.16, 0.15, 0.04))[c.index(3)]
+    left = c.between(0.0, 0.5)
+    trees = Trees(
+        "crown" if shape == "crown" else "bare",
+        2 + c.index(8),
+        c.between(0.85, 1.05),
+        c.between(0.25, 0.8),
+        left,
+        left + c.between(0.4, 0.8),
+        pale=autumn,
+    )
+    hedge = Trees("crown", 8 + c.index(30), c.between(0.72, 0.8), c.between(0.05, 0.14), haze=0.1)
+    meadow = Plain(c.between(0.66, 0.74), "heath", rocks=0.1, haze=0.1)
+    return View(sky, light, (_far(c, top), meadow, hedge, trees))
+
+
+def village(c: Choice) -> View:
+    """Houses before the mountains, on the hill or above the ridge, often behind wires."""
+    top = c.between(0.25, 0.5)
+    sky, light = _day(c, top + 0.15)
+    town = c.index(3) == 0
+    houses = Houses(
+        3 + c.index(12),
+        c.between(0.68, 0.9),
+        c.between(0.06, 0.2) if c.index(3) else c.between(0.25, 0.6),
+        towers=c.index(2),
+        flat=town,
+        haze=c.between(0.0, 0.2),
+    )
+    ground = Plain(c.between(0.64, 0.7), "heath", rocks=0.1) if c.index(2) else forest(c, 0.6)
+    trees = Trees("crown", 4 + c.index(12), 0.86, c.between(0.06, 0.16))
+    wires = Wires(
+        c.between(0.02, 0.5),
+        1 + c.index(5),
+        c.between(0.01, 0.06),
+        c.between(0.01, 0.12),
+        c.between(-0.2, 0.2),
+        c.between(0.7, 2.4),
+        c.index(3),
+    )
+    ahead: tuple[Layer, ...] = (wires,) if c.index(2) else ()
+    return View(sky, light, (_far(c, top), ground, houses, trees, *ahead))
+
+
+def hikers(c: Choice) -> View:
+    """People before the view, as in most people's photos."""
+    top = c.between(0.2, 0.45)
+    sky, light = _day(c, top + 0.15)
+    people = People(1 + c.index(3), c.between(0.3, 0.95), c.between(1.0, 1.12))
+    return View(sky, light, (_far(c, top), *near(c), people))
+
+
+def aerial(c: Choice) -> View:
+    """The ground from an aircraft that banks: a far, hazy and steep horizon."""
+    horizon = c.between(0.3, 0.65)
+    sky, light = _day(c, horizon)
+    grey = c.between(0.6, 1.0)
+    sheet = Overcast(horizon, shaded((0.97, 0.97, 0.97), grey), shaded((0.6, 0.62, 0.66), grey))
+    hazy = c.between(0.5, 0.98)
+    light = replace(light, haze=shaded(sky.horizon, c.between(0.6, 0.9)))
+    far = Range(
+        horizon - c.between(0.003, 0.03),
+        c.size(0.05, 0.1),
+        "forest",
+        haze=hazy,
+        steep=0.25,
+        tilt=0.06,
+    )
+    ground = Plain(
+        horizon,
+        ("heath", "forest", "heath")[c.index(3)],
+        rocks=0.0,
+        shrubs=c.between(0.2, 1.0),
+        haze=hazy,
+    )
+    back: tuple[Layer, ...] = (sheet,) if c.index(2) else ()
+    roll = c.between(-0.24, 0.24)
+    return View(sky, light, (*back, far, ground), camera=Camera(roll=roll, vignette=0.8))
+
+
+_ = NOON
