@@ -151,7 +151,7 @@ def _glow(picture: Picture, spec: Glow) -> None:
     photo += (light * light)[..., None] * tint(spec.colour)
     if spec.disc:
         share = window.disc(x, y, spec.disc)
-        photo[:] = mix(photo, np.maximum(tint(spec.colour) * 3, 0.8), share[..., None])
+        photo[:] = mix(photo, np.maximum(tint(spec.colour) * 3, np.float32(0.8)), share[..., None])
 
 
 def _stars(picture: Picture, rng: np.random.Generator, spec: Stars) -> None:

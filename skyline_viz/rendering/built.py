@@ -1,6 +1,7 @@
-"""What people put into the renderer's landscapes: houses, masts, wires, and themselves."""
+"""What people put into the renderer's landscapes: houses, masts and wires."""
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -12,8 +13,6 @@ from skyline_viz.rendering.terrain import Colour, Light, tint
 
 _WALLS = ((0.62, 0.58, 0.50), (0.30, 0.19, 0.11), (0.48, 0.24, 0.16), (0.70, 0.70, 0.68))
 _ROOFS = ((0.30, 0.10, 0.06), (0.13, 0.13, 0.14), (0.22, 0.16, 0.12), (0.72, 0.73, 0.75))
-_CLOTHES = ((0.5, 0.05, 0.04), (0.04, 0.10, 0.35), (0.03, 0.03, 0.03), (0.6, 0.45, 0.08))
-_SKIN = (0.42, 0.25, 0.17)
 _METAL = (0.16, 0.16, 0.17)
 
 
@@ -62,18 +61,7 @@ class Wires:
     """How many masts are in the photo; they hide the line, and do not move it."""
 
 
-@dataclass(frozen=True)
-class People:
-    """People in front of all; they hide the line, and do not move it."""
-
-    count: int
-    height: float
-    """As a share of the photo's height."""
-
-    base: float = 1.0
-
-
-Built = Houses | Wires | People
+Built: TypeAlias = Houses | Wires
 
 
 def draw_built(
@@ -85,8 +73,6 @@ def draw_built(
             _houses(picture, noise, rng, spec, light)
         case Wires():
             _wires(picture, rng, spec, light)
-        case People():
-            _people(picture, rng, spec, light)
 
 
 def _houses(
@@ -190,43 +176,3 @@ def _wires(picture: Picture, rng: np.random.Generator, spec: Wires, light: Light
             y = top + spec.gap * j * frame.down
             share = np.maximum(share, window.box(x - arm, y - 1.4, x + arm, y + 1.4))
         picture.paint(share, metal, "thing")
-
-
-def _people(picture: Picture, rng: np.random.Generator, spec: People, light: Light) -> None:
-    frame = picture.frame
-    for place, scale, lean in rng.random((spec.count, 3)).tolist():
-        cloth, legs = _CLOTHES[int(rng.integers(4))], _CLOTHES[int(rng.integers(2, 4))]
-        high = spec.height * frame.down * (0.85 + 0.15 * scale)
-        x, foot = place * frame.across, (spec.base + 0.03 * scale) * frame.down
-        head = foot - high * 0.93
-        window = picture.window(x - high * 0.3, foot - high * 1.05, x + high * 0.3, foot)
-        if window.empty:
-            continue
-        brightness = tint(light.skylight) * 1.2 + tint(light.sunlight) * (0.25 + 0.3 * lean)
-        wide, waist = high * 0.125, foot - high * 0.47
-        trunk = window.polygon(
-            (x - wide, head + high * 0.12),
-            (x + wide, head + high * 0.12),
-            (x + wide * 0.8, waist),
-            (x - wide * 0.8, waist),
-        )
-        arms = window.polygon(
-            (x - wide, head + high * 0.12),
-            (x + wide, head + high * 0.12),
-            (x + wide * 1.5, waist + high * 0.04),
-            (x - wide * 1.5, waist + high * 0.04),
-        )
-        leg = window.box(x - wide * 0.8, waist, x - wide * 0.08, foot)
-        other = window.box(x + wide * 0.12, waist, x + wide * 0.8, foot)
-        picture_part = window.picture
-        picture_part.paint(np.maximum(leg, other), tint(legs) * brightness, "thing")
-        picture_part.paint(arms, tint(cloth) * brightness * 0.8, "thing")
-        picture_part.paint(trunk, tint(cloth) * brightness, "thing")
-        picture_part.paint(
-            window.box(x - high * 0.025, head, x + high * 0.025, head + high * 0.13),
-            tint(_SKIN) * brightness * 0.8,
-            "thing",
-        )
-        picture_part.paint(window.disc(x, head, high * 0.068), tint(_SKIN) * brightness, "thing")
-        hat = window.disc(x, head - high * 0.012, high * 0.07) * (window.y < head)
-        picture_part.paint(hat, tint(legs) * brightness, "thing")

@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from PIL import Image
 
-from skyline_viz.arrays import F32, U8
+from skyline_viz.arrays import F32
 from skyline_viz.rendering.filters import mix, soften
 from skyline_viz.rendering.picture import Picture
 from skyline_viz.rendering.terrain import Colour, Frame, tint
@@ -149,7 +149,7 @@ class Camera:
 
 
 def _sash(picture: Picture, margin: float) -> F32:
-    """Share of each pixel that a window frame with bars across hides, blurred as near things are."""
+    """Share of each pixel that a window frame with bars across hides; near things are blurred."""
     window, frame = picture.everywhere(), picture.frame
     width = margin * frame.down
     across, down = frame.across, frame.down

@@ -5,7 +5,7 @@ from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
-from skyline_viz.rendering import mountain_views, place_views, weather_views
+from skyline_viz.rendering import hour_views, mountain_views, place_views, weather_views
 from skyline_viz.rendering.terrain import Frame
 from skyline_viz.rendering.views import Choice, View
 
@@ -51,9 +51,9 @@ _RECIPES: dict[Kind, Callable[[Choice], View]] = {
     "banks": weather_views.banks,
     "overcast": weather_views.overcast,
     "glacier": weather_views.glacier,
-    "dusk": weather_views.dusk,
-    "alpenglow": weather_views.alpenglow,
-    "night": weather_views.night,
+    "dusk": hour_views.dusk,
+    "alpenglow": hour_views.alpenglow,
+    "night": hour_views.night,
     "sea": place_views.sea,
     "lake": place_views.lake,
     "conifers": place_views.conifers,

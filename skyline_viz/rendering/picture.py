@@ -131,3 +131,18 @@ class Window:
         off = (self.x - np.float32(x)) * (self.x - np.float32(x))
         lift = (self.y - np.float32(y)) * (self.y - np.float32(y))
         return self.share(np.float32(radius) - np.sqrt(off + lift))
+
+    def limb(
+        self,
+        start: tuple[float, float],
+        end: tuple[float, float],
+        radii: tuple[float, float],
+    ) -> F32:
+        """Share of each pixel in a rounded rod, of one radius at its start, another at its end."""
+        across, along = end[0] - start[0], end[1] - start[1]
+        length = across * across + along * along + 1e-6
+        x, y = self.x - np.float32(start[0]), self.y - np.float32(start[1])
+        part = np.clip(x * np.float32(across / length) + y * np.float32(along / length), 0, 1)
+        off, lift = x - part * np.float32(across), y - part * np.float32(along)
+        radius = np.float32(radii[0]) + part * np.float32(radii[1] - radii[0])
+        return self.share(radius - np.sqrt(off * off + lift * lift))

@@ -2,17 +2,18 @@
 
 from dataclasses import replace
 
-from skyline_viz.rendering.air import Bank, Overcast
-from skyline_viz.rendering.built import Houses, People, Wires
+from skyline_viz.rendering.air import Bank, Glow, Overcast
+from skyline_viz.rendering.built import Houses, Wires
 from skyline_viz.rendering.camera import Camera
+from skyline_viz.rendering.hour_views import TWILIGHTS
 from skyline_viz.rendering.mountains import Range
+from skyline_viz.rendering.people import People
 from skyline_viz.rendering.plain import Plain
 from skyline_viz.rendering.plants import Trees
 from skyline_viz.rendering.sky import Sky
 from skyline_viz.rendering.terrain import Light
-from skyline_viz.rendering.views import MOODS, NOON, Choice, Layer, View, forest, hills, near
+from skyline_viz.rendering.views import MOODS, Choice, Layer, View, forest, hills, near, shaded
 from skyline_viz.rendering.water import Water
-from skyline_viz.rendering.weather_views import shaded
 
 
 def _day(c: Choice, low: float) -> tuple[Sky, Light]:
@@ -42,6 +43,14 @@ def sea(c: Choice) -> View:
     """The horizon of a sea, open or behind headlands and islands."""
     horizon = c.between(0.3, 0.66)
     sky, light = _day(c, horizon)
+    sun: tuple[Layer, ...] = ()
+    if c.index(4) == 0:
+        zenith, glowing, red = TWILIGHTS[c.index(len(TWILIGHTS))]
+        sky = Sky(zenith, glowing, low=horizon, veil=c.between(0.0, 0.2))
+        light = Light(c.sun(0.2), shaded(red, 0.2), shaded(glowing, 0.25), glowing)
+        sun = (
+            Glow(c.between(0, 1), horizon - c.between(0.0, 0.2), red, 0.4, 0.2, c.between(0, 18)),
+        )
     hazy = c.index(3) == 0
     water = Water(
         horizon,
@@ -69,7 +78,7 @@ def sea(c: Choice) -> View:
     beach: tuple[Layer, ...] = ()
     if c.index(3) == 0:
         beach = (replace(hills(c, 0.78, trees=0), cover="rock"),)
-    return View(sky, light, (*back, *coast, water, *beach))
+    return View(sky, light, (*sun, *back, *coast, water, *beach))
 
 
 def lake(c: Choice) -> View:
@@ -77,7 +86,8 @@ def lake(c: Choice) -> View:
     shore = c.between(0.45, 0.7)
     sky, light = _day(c, shore)
     mountains = _far(c, shore - c.between(0.22, 0.4))
-    wood = replace(forest(c, shore - 0.08, haze=c.between(0.0, 0.3)), relief=c.size(0.1, 0.16))
+    wood = forest(c, shore - c.between(0.1, 0.2), haze=c.between(0.0, 0.3))
+    wood = replace(wood, relief=c.size(0.22, 0.34), lean=c.between(0, 1.2))
     water = Water(shore, c.between(0.0, 0.35))
     trees = Trees("conifer", 3 + c.index(8), 1.02, c.between(0.2, 0.7), right=0.35)
     ahead: tuple[Layer, ...] = (trees,) if c.index(3) == 0 else ()
@@ -168,7 +178,10 @@ def aerial(c: Choice) -> View:
     grey = c.between(0.6, 1.0)
     sheet = Overcast(horizon, shaded((0.97, 0.97, 0.97), grey), shaded((0.6, 0.62, 0.66), grey))
     hazy = c.between(0.5, 0.98)
-    light = replace(light, haze=shaded(sky.horizon, c.between(0.6, 0.9)))
+    pale = shaded((0.97, 0.96, 0.96), c.between(0.7, 1.0))
+    if c.index(2):  # the small cameras of aircraft burn out the sky
+        sky = replace(sky, zenith=shaded(pale, c.between(0.5, 0.95)), horizon=pale)
+    light = replace(light, haze=shaded(sky.horizon, c.between(0.5, 0.9)))
     far = Range(
         horizon - c.between(0.003, 0.03),
         c.size(0.05, 0.1),
@@ -177,16 +190,7 @@ def aerial(c: Choice) -> View:
         steep=0.25,
         tilt=0.06,
     )
-    ground = Plain(
-        horizon,
-        ("heath", "forest", "heath")[c.index(3)],
-        rocks=0.0,
-        shrubs=c.between(0.2, 1.0),
-        haze=hazy,
-    )
+    ground = Plain(horizon, "heath", rocks=0.0, haze=hazy, fields=c.between(35, 160))
     back: tuple[Layer, ...] = (sheet,) if c.index(2) else ()
     roll = c.between(-0.24, 0.24)
     return View(sky, light, (*back, far, ground), camera=Camera(roll=roll, vignette=0.8))
-
-
-_ = NOON

@@ -24,11 +24,12 @@ from skyline_viz.arrays import U8, read_only
 from skyline_viz.files import replacing
 from skyline_viz.photo import write_photo
 from skyline_viz.rendering.air import draw_air
-from skyline_viz.rendering.built import Houses, People, Wires, draw_built
+from skyline_viz.rendering.built import Houses, Wires, draw_built
 from skyline_viz.rendering.camera import Camera, any_camera
 from skyline_viz.rendering.kinds import KINDS, Kind, compose
 from skyline_viz.rendering.mountains import Range, mountain_range
 from skyline_viz.rendering.noise import Noise
+from skyline_viz.rendering.people import People, draw_people
 from skyline_viz.rendering.picture import Picture
 from skyline_viz.rendering.plain import Plain, plain
 from skyline_viz.rendering.plants import Trees, draw_trees
@@ -120,7 +121,9 @@ def _draw(frame: Frame, view: View, rng: np.random.Generator) -> Picture:
                 draw_water(picture, noise, layer, view.light)
             case Trees():
                 draw_trees(picture, noise, rng, layer, view.light)
-            case Houses() | Wires() | People():
+            case People():
+                draw_people(picture, noise, rng, layer, view.light)
+            case Houses() | Wires():
                 draw_built(picture, noise, rng, layer, view.light)
             case _:
                 draw_air(picture, noise, rng, layer)

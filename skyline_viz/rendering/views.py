@@ -6,9 +6,10 @@ from typing import TypeAlias
 import numpy as np
 
 from skyline_viz.rendering.air import Bank, Glow, Overcast, Stars
-from skyline_viz.rendering.built import Houses, People, Wires
+from skyline_viz.rendering.built import Houses, Wires
 from skyline_viz.rendering.camera import PLAIN, Camera
 from skyline_viz.rendering.mountains import Range
+from skyline_viz.rendering.people import People
 from skyline_viz.rendering.plain import Plain
 from skyline_viz.rendering.plants import Trees
 from skyline_viz.rendering.sky import Sky
@@ -22,9 +23,6 @@ Layer: TypeAlias = (
     Range | Plain | Water | Trees | Bank | Overcast | Glow | Stars | Houses | Wires | People
 )
 """Whatever is drawn over what is behind it."""
-
-_HEIGHTS = ("top", "horizon", "base", "low")
-"""How layers call the row, as a share of the photo's height, that they hang or stand at."""
 
 
 @dataclass(frozen=True)
@@ -46,10 +44,10 @@ class View:
 
     def through(self, camera: Camera) -> "View":
         """The same place, taken with another camera."""
-        heights = [low for low in map(_height, self.layers) if low is not None]
-        by = max(camera.pitch, 0.03 - min(heights))
+        tops = [low for low in map(_top, self.layers) if low is not None]
+        by = max(camera.pitch, 0.03 - min(tops))
         layers = [_lowered(layer, by) for layer in self.layers]
-        seen = [layer for layer in layers if not (_height(layer) or 0) > 0.96]
+        seen = [layer for layer in layers if (_top(layer) or 0) < 0.96]
         camera = replace(
             camera,
             roll=camera.roll + self.camera.roll,
@@ -59,17 +57,25 @@ class View:
         return replace(self, sky=sky, layers=tuple(seen), camera=camera)
 
 
-def _height(layer: Layer) -> float | None:
-    for name in _HEIGHTS:
-        if hasattr(layer, name):
-            return float(getattr(layer, name))
-    return None
+def shaded(colour: Colour, by: float) -> Colour:
+    """A colour `by` times as bright."""
+    red, green, blue = colour
+    return (red * by, green * by, blue * by)
+
+
+def _top(layer: Layer) -> float | None:
+    """Row where ground begins."""
+    if isinstance(layer, Range):
+        return layer.top
+    return layer.horizon if isinstance(layer, Plain | Water) else None
 
 
 def _lowered(layer: Layer, by: float) -> Layer:
-    for name in _HEIGHTS:
-        if hasattr(layer, name):
-            return replace(layer, **{name: getattr(layer, name) + by})
+    for name in ("top", "horizon", "base", "low"):
+        place = getattr(layer, name, None)
+        # What is near stays when the camera looks down: the ground has to reach its feet.
+        if place is not None and (by > 0 or place < 0.6):
+            return replace(layer, **{name: place + by})
     return layer
 
 

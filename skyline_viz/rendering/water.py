@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skyline_viz.arrays import F32
-from skyline_viz.rendering.filters import mix, ramp
+from skyline_viz.rendering.filters import box_blur, mix, ramp
 from skyline_viz.rendering.noise import Noise
 from skyline_viz.rendering.picture import Picture
 from skyline_viz.rendering.terrain import Colour, Light, tint
@@ -46,10 +46,17 @@ def draw_water(picture: Picture, noise: Noise, spec: Water, light: Light) -> Non
     tilt: F32 = (swell * 0.5 + chop) * np.float32(spec.waves)
     # A wave that leans towards the viewer mirrors what is higher up in the sky.
     lift = below * (1 + np.abs(tilt) * 1.6) + np.abs(tilt) * np.float32(60 * spec.waves)
-    source = np.rint(edge - lift * np.float32(frame.unit))
+    # What would be mirrored from above the photo is like the sky in its upper part.
+    source = np.abs(np.rint(edge - lift * np.float32(frame.unit)))
     rows = np.clip(source, 0, max(first - 1, 0)).astype(np.intp)
-    columns = np.arange(frame.width)[None, :]
-    mirrored = picture.photo[rows, np.broadcast_to(columns, rows.shape)]
+    shift = np.rint(chop * np.float32(spec.waves * 60 * frame.unit)).astype(np.intp)
+    columns = np.clip(np.arange(frame.width)[None, :] + shift, 0, frame.width - 1)
+    above = picture.photo[: max(first, 1)]
+    radius = round(90 * spec.waves * spec.waves * frame.unit)
+    if radius:  # many waves in a pixel mirror many places
+        blurred = [box_blur(above[..., k] * 64, radius) / np.float32(64) for k in range(3)]
+        above = mix(above, np.stack(blurred, axis=2), min(1.0, spec.waves * 1.2))
+    mirrored = above[rows, columns]
     depth = ramp(0, frame.down * 0.5, below)
     mirror = np.clip(0.86 - depth * (0.12 + 0.4 * spec.waves) - tilt * 0.5, 0.1, 0.95)
     colour = mix(tint(spec.colour), mirrored, mirror[..., None])
