@@ -135,7 +135,7 @@ def _overcast(picture: Picture, noise: Noise, spec: Overcast) -> None:
     bend = noise.fractal(x, y, 260, 30) * 60
     rolls = noise.billows(x + bend, (y + bend) * 1.6, 330, 2.5 / window.unit)
     broad = noise.fractal(x, y * 1.5, 700, 150)
-    lit = np.clip(0.5 + (rolls - 0.45 + broad * 0.7) * spec.contrast, 0, 1)
+    lit: F32 = np.clip(0.5 + (rolls - 0.45 + broad * 0.7) * spec.contrast, 0, 1)
     colour = mix(tint(spec.shade), tint(spec.light), lit[..., None])
     share = ramp(-0.4, 0.3, broad + rolls - 0.4 + (spec.strength - 0.5) * 2) * spec.strength
     window.picture.paint(share, colour, "air")
@@ -151,7 +151,7 @@ def _glow(picture: Picture, spec: Glow) -> None:
     photo += (light * light)[..., None] * tint(spec.colour)
     if spec.disc:
         share = window.disc(x, y, spec.disc)
-        photo[:] = mix(photo, np.maximum(tint(spec.colour) * 3, np.float32(0.8)), share[..., None])
+        photo[:] = mix(photo, np.clip(tint(spec.colour) * 3, 0.8, None), share[..., None])
 
 
 def _stars(picture: Picture, rng: np.random.Generator, spec: Stars) -> None:

@@ -2,17 +2,15 @@
 
 import io
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
 
 import numpy as np
 from PIL import Image
 
 from skyline_viz.arrays import F32
 from skyline_viz.rendering.filters import mix, soften
+from skyline_viz.rendering.marks import Border, bars, sash, stamp
 from skyline_viz.rendering.picture import Picture
 from skyline_viz.rendering.terrain import Colour, Frame, tint
-
-Border: TypeAlias = Literal["", "letterbox", "pillarbox", "passepartout", "window"]
 
 
 @dataclass(frozen=True)
@@ -54,6 +52,9 @@ class Camera:
     shade: float = 0.0
     """Brightness of the border, 0 to 1."""
 
+    stamp: bool = False
+    """Whether it writes the date into the lower right corner."""
+
     def canvas(self, frame: Frame) -> Frame:
         """What has to be drawn, so that the tilted camera has no empty corners."""
         if not self.roll:
@@ -67,7 +68,7 @@ class Camera:
         """What it sees of a picture of the size of `canvas`: one of the size of `frame`."""
         picture = self._tilted(drawn, frame) if self.roll else drawn
         if self.border == "window":
-            share = _sash(picture, self.margin)
+            share = sash(picture, self.margin)
             picture.paint(share, tint((self.shade,) * 3), "thing")
         return picture
 
@@ -131,39 +132,13 @@ class Camera:
             )
         levels = np.rint(tone * 255 + noise * np.float32(grain * self.grain / 148))
         pixels = np.clip(levels, 0, 255).astype(np.uint8)
-        pixels[self.bars(height, width)] = round(255 * self.shade)
+        pixels[bars(self.border, self.margin, (height, width))] = round(255 * self.shade)
+        if self.stamp:
+            pixels[stamp(height, width)] = (255, 140, 30)
         file = io.BytesIO()
         image = Image.fromarray(pixels[..., 0] if self.grey else pixels)
         image.save(file, "JPEG", quality=self.quality)
         return file.getvalue()
-
-    def bars(self, height: int, width: int) -> "np.typing.NDArray[np.bool_]":
-        """``(H, W)`` the pixels of bars that were added to the finished photo."""
-        bars = np.zeros((height, width), bool)
-        size = max(2, round(self.margin * height))
-        if self.border in ("letterbox", "passepartout"):
-            bars[:size] = bars[-size:] = True
-        if self.border in ("pillarbox", "passepartout"):
-            bars[:, :size] = bars[:, -size:] = True
-        return bars
-
-
-def _sash(picture: Picture, margin: float) -> F32:
-    """Share of each pixel that a window frame with bars across hides; near things are blurred."""
-    window, frame = picture.everywhere(), picture.frame
-    width = margin * frame.down
-    across, down = frame.across, frame.down
-    panes = 1 + round(margin * 40) % 3
-    pane = across / panes
-    clear: F32 = np.zeros((frame.height, frame.width), np.float32)
-    for k in range(panes):
-        clear = np.maximum(
-            clear, window.box(k * pane + width / 2, width, (k + 1) * pane - width / 2, down - width)
-        )
-    share: F32 = 1 - clear
-    for _ in range(max(1, round(2 * frame.unit))):
-        share = soften(share, 0.25)
-    return share
 
 
 PLAIN = Camera()
@@ -197,5 +172,6 @@ def any_camera(rng: np.random.Generator) -> Camera:
         quality=round(seldom(0.4, 25, 80, 90)),
         border=border,
         margin=between(0.02, 0.13),
+        stamp=bool(rng.random() < 0.06),
         shade=0.0 if rng.random() < 0.7 else between(0, 0.95),
     )

@@ -9,7 +9,7 @@ from skyline_viz.rendering.hour_views import TWILIGHTS
 from skyline_viz.rendering.mountains import Range
 from skyline_viz.rendering.people import People
 from skyline_viz.rendering.plain import Plain
-from skyline_viz.rendering.plants import Trees
+from skyline_viz.rendering.plants import Branches, Trees
 from skyline_viz.rendering.sky import Sky
 from skyline_viz.rendering.terrain import Light
 from skyline_viz.rendering.views import MOODS, Choice, Layer, View, forest, hills, near, shaded
@@ -111,7 +111,11 @@ def conifers(c: Choice) -> View:
         left + c.between(0.3, 1.0),
     )
     hill = forest(c, c.between(0.6, 0.75))
-    return View(sky, light, (_far(c, top), hill, back, front), contrast=c.between(0.1, 0.4))
+    layers: tuple[Layer, ...] = (_far(c, top), hill, back, front)
+    if c.index(2):  # on a wooded ridge they are the skyline
+        crest = Trees("conifer", 10 + c.index(60), 0.0, c.between(0.04, 0.16))
+        layers = (forest(c, top, mist=0.0, trees=9), crest, hill, front)
+    return View(sky, light, layers, contrast=c.between(0.1, 0.4))
 
 
 def grove(c: Choice) -> View:
@@ -132,7 +136,9 @@ def grove(c: Choice) -> View:
     )
     hedge = Trees("crown", 8 + c.index(30), c.between(0.72, 0.8), c.between(0.05, 0.14), haze=0.1)
     meadow = Plain(c.between(0.66, 0.74), "heath", rocks=0.1, haze=0.1)
-    return View(sky, light, (_far(c, top), meadow, hedge, trees))
+    branches = Branches((-1.0, 1.0)[c.index(2)], c.between(0.25, 0.7))
+    ahead: tuple[Layer, ...] = (branches,) if c.index(3) == 0 else ()
+    return View(sky, light, (_far(c, top), meadow, hedge, trees, *ahead))
 
 
 def village(c: Choice) -> View:

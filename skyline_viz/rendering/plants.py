@@ -36,6 +36,19 @@ class Trees:
 
 
 @dataclass(frozen=True)
+class Branches:
+    """Leaves that hang into the photo from above; they do not move the line."""
+
+    side: float
+    """-1 for the left upper corner, 1 for the right one."""
+
+    reach: float
+    """How far they reach, as a share of the width and of the height."""
+
+    dark: Colour = (0.015, 0.022, 0.010)
+
+
+@dataclass(frozen=True)
 class _Tree:
     x: float
     base: float
@@ -49,11 +62,29 @@ def draw_trees(
     """Draw trees, the near and large ones last."""
     frame = picture.frame
     dice = rng.random((spec.count, 4)).tolist()
+    trees = []
     for place, size, shift, chance in sorted(dice, key=lambda one: one[1]):
         x = (spec.left + (spec.right - spec.left) * place) * frame.across
         height = spec.height * frame.down * (0.45 + 0.55 * size)
         base = picture.root(x, (spec.base + 0.03 * (shift + size)) * frame.down)
-        _draw(picture, noise, spec, light, _Tree(x, base, height, chance))
+        trees.append(_Tree(x, base, height, chance))
+    for tree in trees:  # once all have their places: none stands on the top of another
+        _draw(picture, noise, spec, light, tree)
+
+
+def draw_branches(picture: Picture, noise: Noise, spec: Branches, light: Light) -> None:
+    """Draw leaves that hang from above."""
+    window, frame = picture.everywhere(), picture.frame
+    edge = frame.across * (0.5 + 0.5 * spec.side)
+    far: F32 = np.abs(window.x - np.float32(edge)) / np.float32(frame.across * spec.reach)
+    low: F32 = window.y / np.float32(frame.down * spec.reach)
+    twigs = noise.fractal(window.x, window.y, frame.down * 0.2, frame.down * 0.03)
+    leaves = noise.fractal(window.x, window.y, frame.down * 0.035, 2 / window.unit, gain=0.8)
+    share = ramp(0.0, 0.12, 0.75 - far - low * 0.8 + twigs * 0.9 + leaves * 1.1)
+    share *= ramp(1.0, 0.9, np.maximum(far * 0.7, low * 0.8))
+    lit = np.clip(0.4 + leaves, 0, 1.2)[..., None]
+    colour = tint(spec.dark) * (1 + lit) * (tint(light.skylight) + lit * tint(light.sunlight))
+    window.picture.paint(share, colour, "thing")
 
 
 def _draw(picture: Picture, noise: Noise, spec: Trees, light: Light, tree: _Tree) -> None:

@@ -27,12 +27,13 @@ from skyline_viz.rendering.air import draw_air
 from skyline_viz.rendering.built import Houses, Wires, draw_built
 from skyline_viz.rendering.camera import Camera, any_camera
 from skyline_viz.rendering.kinds import KINDS, Kind, compose
+from skyline_viz.rendering.marks import bars
 from skyline_viz.rendering.mountains import Range, mountain_range
 from skyline_viz.rendering.noise import Noise
 from skyline_viz.rendering.people import People, draw_people
 from skyline_viz.rendering.picture import Picture
 from skyline_viz.rendering.plain import Plain, plain
-from skyline_viz.rendering.plants import Trees, draw_trees
+from skyline_viz.rendering.plants import Branches, Trees, draw_branches, draw_trees
 from skyline_viz.rendering.sky import paint_sky
 from skyline_viz.rendering.terrain import Frame
 from skyline_viz.rendering.views import View
@@ -123,6 +124,8 @@ def _draw(frame: Frame, view: View, rng: np.random.Generator) -> Picture:
                 draw_trees(picture, noise, rng, layer, view.light)
             case People():
                 draw_people(picture, noise, rng, layer, view.light)
+            case Branches():
+                draw_branches(picture, noise, layer, view.light)
             case Houses() | Wires():
                 draw_built(picture, noise, rng, layer, view.light)
             case _:
@@ -136,8 +139,9 @@ def _truth(picture: Picture, camera: Camera) -> Skyline:
     rows = picture.line()
     inside = (rows > 0) & (rows < height)
     place = np.clip(rows, 0, height - 1).astype(np.intp), np.arange(width)
-    hidden = (picture.hidden[place] > np.float32(0.8)) | camera.bars(height, width)[place]
-    return Skyline(rows=rows, visible=inside & ~hidden)
+    hidden = picture.hidden > np.float32(0.8)
+    hidden |= bars(camera.border, camera.margin, (height, width))
+    return Skyline(rows=rows, visible=inside & ~hidden[place])
 
 
 SAMPLES: tuple[tuple[Kind, int, int, int], ...] = (

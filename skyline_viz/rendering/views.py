@@ -11,7 +11,7 @@ from skyline_viz.rendering.camera import PLAIN, Camera
 from skyline_viz.rendering.mountains import Range
 from skyline_viz.rendering.people import People
 from skyline_viz.rendering.plain import Plain
-from skyline_viz.rendering.plants import Trees
+from skyline_viz.rendering.plants import Branches, Trees
 from skyline_viz.rendering.sky import Sky
 from skyline_viz.rendering.terrain import Colour, Frame, Light
 from skyline_viz.rendering.water import Water
@@ -20,7 +20,18 @@ Ground: TypeAlias = Range | Plain
 """Solid ground."""
 
 Layer: TypeAlias = (
-    Range | Plain | Water | Trees | Bank | Overcast | Glow | Stars | Houses | Wires | People
+    Range
+    | Plain
+    | Water
+    | Trees
+    | Branches
+    | Bank
+    | Overcast
+    | Glow
+    | Stars
+    | Houses
+    | Wires
+    | People
 )
 """Whatever is drawn over what is behind it."""
 

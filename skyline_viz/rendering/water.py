@@ -46,6 +46,7 @@ def draw_water(picture: Picture, noise: Noise, spec: Water, light: Light) -> Non
     tilt: F32 = (swell * 0.5 + chop) * np.float32(spec.waves)
     # A wave that leans towards the viewer mirrors what is higher up in the sky.
     lift = below * (1 + np.abs(tilt) * 1.6) + np.abs(tilt) * np.float32(60 * spec.waves)
+    lift += np.float32(110 * spec.waves * spec.waves) * ramp(0, 40, below)
     # What would be mirrored from above the photo is like the sky in its upper part.
     source = np.abs(np.rint(edge - lift * np.float32(frame.unit)))
     rows = np.clip(source, 0, max(first - 1, 0)).astype(np.intp)
