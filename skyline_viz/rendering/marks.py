@@ -11,7 +11,7 @@ from skyline_viz.rendering.picture import Picture
 Border: TypeAlias = Literal["", "letterbox", "pillarbox", "passepartout", "window"]
 """Bars above and below, at the sides, all around; or the frame of a window."""
 
-_DIGITS = "abcdef bc abged abgcd fgbc afgcd afgedc abc abcdefg abcdfg".split()
+_DIGITS = ["abcdef", "bc", "abged", "abgcd", "fgbc", "afgcd", "afgedc", "abc", "abcdefg", "abcdfg"]
 """Strokes of the digits 0 to 9."""
 
 _PLACES = {
