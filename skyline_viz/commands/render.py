@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import tyro
 
@@ -26,14 +26,14 @@ class Render:
     out: Folder = Path("sample_data")
     """Folder for images/NAME.jpg and masks/NAME.png (0 is sky, 255 terrain)."""
 
-    kind: Annotated[str | None, tyro.conf.arg(metavar="KIND")] = None
-    """Kind of scenes, to render others than the samples; a wrong one gets the list."""
+    kind: Annotated[tuple[str, ...], tyro.conf.arg(metavar="KIND [KIND ...]")] = ()
+    """Kinds of scenes, or all, to render others than the samples; a wrong one gets the list."""
 
     seed: int = 1
     """Seed of the first scene; each seed is another place and another light."""
 
     count: int = 1
-    """Number of scenes, with one seed after the other."""
+    """Number of scenes of each kind, with one seed after the other."""
 
     width: int = 960
     """Columns of the photos."""
@@ -41,21 +41,27 @@ class Render:
     height: int = 540
     """Rows of the photos."""
 
+    camera: Literal["plain", "any"] = "plain"
+    """plain is upright and good; any is tilted, blurred, grainy or framed, as the seed chooses."""
+
     def run(self) -> int:
         """Render and write the scenes; return the exit status."""
-        if self.kind is None and self != Render(out=self.out):
-            raise UsageError("--seed, --count, --width and --height are for scenes of a --kind.")
+        if not self.kind and self != Render(out=self.out):
+            raise UsageError(
+                "--seed, --count, --width, --height and --camera are for scenes of a --kind."
+            )
         if self.count < 1:
             raise UsageError(f"--count is 1 or more, not {self.count}.")
         output_folder(self.out, ())
+        kinds: Any = rendering.KINDS if self.kind == ("all",) else dict.fromkeys(self.kind)
         seeds = range(self.seed, self.seed + self.count)
-        kind: Any = self.kind  # which the renderer checks
+        size = self.width, self.height
         scenes = (
-            rendering.sample_scenes()
-            if kind is None
-            else (rendering.render(kind, seed, self.width, self.height) for seed in seeds)
+            (rendering.render(k, n, *size, camera=self.camera) for k in kinds for n in seeds)
+            if kinds
+            else rendering.sample_scenes()
         )
-        total = len(rendering.SAMPLES) if kind is None else self.count
+        total = len(kinds) * self.count if kinds else len(rendering.SAMPLES)
         count = 0
         for path in write_with_progress(scenes, self.out, total):
             tell(str(path))

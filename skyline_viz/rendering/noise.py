@@ -91,6 +91,15 @@ class Noise:
         both = _in_blocks(lambda x, y: self._mounds(x, y, share), x, y)
         return both[..., 0], both[..., 1]
 
+    def cells(self, x: F32, y: F32, size: float) -> F32:
+        """A random number, 0 to 1, of the square cell of side `size` that each position is in."""
+        x, y = self._place(x, y, size)
+        column, row = np.floor(x).astype(np.int32), np.floor(y).astype(np.int32)
+        numbers: F32 = self._uniform.take(
+            (row & (_PERIOD - 1)) * _PERIOD + (column & (_PERIOD - 1))
+        )
+        return numbers
+
     def _place(self, x: F32, y: F32, size: float) -> tuple[F32, F32]:
         """Lattice coordinates, in another stretch of the tables at each call."""
         self._calls += 1

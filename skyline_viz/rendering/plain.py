@@ -21,6 +21,8 @@ from skyline_viz.rendering.terrain import (
 _FOCUS = 720.0  # focal length in reference pixels
 _EYE = 60.0  # height of the eye above the ground, in the unit of lengths on the ground
 _BUSH = (0.13, 0.12, 0.065)
+_CROPS = ((0.10, 0.17, 0.04), (0.30, 0.26, 0.11), (0.24, 0.17, 0.11), (0.15, 0.17, 0.07))
+_WOOD = (0.035, 0.055, 0.022)
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,9 @@ class Plain:
 
     haze: float = 0.5
     """Share of air light at the horizon."""
+
+    fields: float = 0.0
+    """Width of its fields, as seen from the air, in the unit of lengths on the ground; 0: none."""
 
 
 @dataclass(frozen=True)
@@ -138,6 +143,8 @@ def _cover(site: _Site, height: F32, stones: F32) -> F32:
         height += tufts * 0.5
         green = mix(grass, shrub, np.clip(0.4 + patches * 0.9 + tufts * 0.6, 0, 1.2)[..., None])
         albedo = mix(albedo, green, ramp(-0.35, -0.05, patches + grain * 0.3)[..., None])
+    if spec.fields:
+        albedo = _fields(site, patches, grain)
     albedo = mix(albedo, dark * 0.9, (stones * 0.75)[..., None])
     if spec.shrubs:
         for size in (9, 16):
@@ -149,3 +156,20 @@ def _cover(site: _Site, height: F32, stones: F32) -> F32:
             bush: F32 = tint(_BUSH) * (1 + grain[..., None])
             albedo = mix(albedo, bush, (ramp(0.2, 0.6, dome) * 0.9)[..., None])
     return albedo
+
+
+def _fields(site: _Site, patches: F32, grain: F32) -> F32:
+    """Albedo of fields, hedges and woods."""
+    size = site.spec.fields
+    bend = patches * size * 0.2
+    u: F32 = site.x * 0.8 + site.y * 0.6 + bend
+    v: F32 = (site.y * 0.8 - site.x * 0.6 - bend) * 0.55
+    crop, wood = site.noise.cells(u, v, size), site.noise.cells(u, v, size * 1.7)
+    seen = ramp(1.2, 0.4, site.blur / np.float32(size))
+    ripe = mix(tint(_CROPS[0]), tint(_CROPS[1]), crop[..., None])
+    ripe = mix(ripe, tint(_CROPS[2]), (ramp(0.6, 0.75, crop) * ramp(1, 0.9, crop))[..., None])
+    albedo = mix(tint(_CROPS[3]), ripe, seen[..., None]) * (1 + grain * 0.25)[..., None]
+    trees = np.maximum(ramp(0.5, 0.6, wood + patches * 0.6 + grain * 0.1), 0)
+    hedge = np.abs(site.noise.smooth(u, v, size * 1.3))
+    trees = np.maximum(trees, ramp(0.07, 0.03, hedge + grain * 0.02) * seen)
+    return mix(albedo, tint(_WOOD) * (1 + grain * 0.8)[..., None], trees[..., None])

@@ -15,23 +15,33 @@ import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal, TypeAlias
 
 import numpy as np
 from PIL import Image
 
-from skyline_viz.arrays import F32, U8, read_only
+from skyline_viz.arrays import U8, read_only
 from skyline_viz.files import replacing
 from skyline_viz.photo import write_photo
-from skyline_viz.rendering.filters import mix, soften
-from skyline_viz.rendering.kinds import KINDS, Kind, View, compose
-from skyline_viz.rendering.mountains import mountain_range
+from skyline_viz.rendering.air import draw_air
+from skyline_viz.rendering.built import Houses, Wires, draw_built
+from skyline_viz.rendering.camera import Camera, any_camera
+from skyline_viz.rendering.kinds import KINDS, Kind, compose
+from skyline_viz.rendering.marks import bars
+from skyline_viz.rendering.mountains import Range, mountain_range
 from skyline_viz.rendering.noise import Noise
+from skyline_viz.rendering.people import People, draw_people
+from skyline_viz.rendering.picture import Picture
 from skyline_viz.rendering.plain import Plain, plain
+from skyline_viz.rendering.plants import Branches, Trees, draw_branches, draw_trees
 from skyline_viz.rendering.sky import paint_sky
-from skyline_viz.rendering.terrain import Frame, project
+from skyline_viz.rendering.terrain import Frame
+from skyline_viz.rendering.views import View
+from skyline_viz.rendering.water import Water, draw_water
 from skyline_viz.skyline import Skyline
 
-_QUALITY = 90
+CameraChoice: TypeAlias = Literal["plain", "any"]
+"""The plain camera of a kind, or any, tilted or looking up, with its own lens and film."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,18 +54,26 @@ class Scene:
     """``(H, W, 3)`` uint8 RGB: the decoded `jpeg`."""
 
     truth: Skyline
-    """Row of the first pixel of each column that is at least half terrain; all visible."""
+    """Row of the first pixel of each column that is at least half terrain.
+
+    Trees, houses and water are terrain. Columns where the line is not in the photo, or where
+    people, masts, a frame or thick cloud hide it, are not visible.
+    """
 
     jpeg: bytes = field(repr=False)
     """The photo as a JPEG file."""
 
+    camera: CameraChoice = "plain"
+
     @property
     def name(self) -> str:
-        """Kind and seed, as ``clear-1``."""
-        return f"{self.kind}-{self.seed}"
+        """Kind and seed, as ``clear-1``, and ``clear-1-any`` where any camera took it."""
+        return f"{self.kind}-{self.seed}{'' if self.camera == 'plain' else '-any'}"
 
 
-def render(kind: Kind, seed: int, width: int = 960, height: int = 540) -> Scene:
+def render(
+    kind: Kind, seed: int, width: int = 960, height: int = 540, *, camera: CameraChoice = "plain"
+) -> Scene:
     """Render one scene.
 
     Args:
@@ -63,6 +81,7 @@ def render(kind: Kind, seed: int, width: int = 960, height: int = 540) -> Scene:
         seed: Not negative; each seed is another place and another light.
         width: Columns of the photo.
         height: Rows of the photo.
+        camera: "any" takes the same place with another camera, which the seed chooses.
 
     Returns:
         The scene; equal arguments give equal bytes.
@@ -79,52 +98,50 @@ def render(kind: Kind, seed: int, width: int = 960, height: int = 540) -> Scene:
     rng = np.random.default_rng([KINDS.index(kind), seed])
     frame = Frame(width, height)
     view = compose(kind, frame, rng)
-    photo, outline = _draw(frame, view, rng)
-    truth = np.clip(np.ceil(outline - np.float32(0.5)), 0, height - 1)
-    jpeg = _expose(photo, view, rng, grey=kind == "rover")
+    if camera == "any":
+        # Its own dice, so that it shows the very place that the plain camera shows.
+        view = view.through(any_camera(np.random.default_rng([KINDS.index(kind), seed, 1])))
+    picture = view.camera.take(_draw(view.camera.canvas(frame), view, rng), frame)
+    jpeg = view.camera.expose(picture.photo, rng, contrast=view.contrast, grain=view.grain)
     decoded = np.array(Image.open(io.BytesIO(jpeg)).convert("RGB"))
     read_only(decoded)
-    return Scene(kind, seed, decoded, Skyline(rows=truth), jpeg)
+    return Scene(kind, seed, decoded, _truth(picture, view.camera), jpeg, camera)
 
 
-def _draw(frame: Frame, view: View, rng: np.random.Generator) -> tuple[F32, F32]:
+def _draw(frame: Frame, view: View, rng: np.random.Generator) -> Picture:
     sunward = 1 if view.light.sun[0] > 0 else -1
-    photo = paint_sky(frame, Noise(rng), rng, view.sky, sunward=sunward)
-    outline: F32 = np.full(frame.width, frame.height, np.float32)
-    for spec in view.terrain:
+    picture = Picture.of(frame, paint_sky(frame, Noise(rng), rng, view.sky, sunward=sunward))
+    for layer in view.layers:
         noise = Noise(rng)  # its own, for small photos take fewer fields from it than large ones
-        terrain = (
-            plain(frame, noise, spec, view.light)
-            if isinstance(spec, Plain)
-            else mountain_range(frame, noise, rng, spec, view.light)
-        )
-        outline = np.minimum(outline, project(terrain, photo))
-    return photo, outline
+        match layer:
+            case Range():
+                picture.ground(mountain_range(frame, noise, rng, layer, view.light))
+            case Plain():
+                picture.ground(plain(frame, noise, layer, view.light))
+            case Water():
+                draw_water(picture, noise, layer, view.light)
+            case Trees():
+                draw_trees(picture, noise, rng, layer, view.light)
+            case People():
+                draw_people(picture, noise, rng, layer, view.light)
+            case Branches():
+                draw_branches(picture, noise, layer, view.light)
+            case Houses() | Wires():
+                draw_built(picture, noise, rng, layer, view.light)
+            case _:
+                draw_air(picture, noise, rng, layer)
+    return picture
 
 
-def _expose(photo: F32, view: View, rng: np.random.Generator, *, grey: bool) -> bytes:
-    """What lens, film and JPEG make of linear light ``(H, W, 3)``."""
-    height, width = photo.shape[:2]
-    x = ((np.arange(width) + 0.5) / width - 0.5).astype(np.float32)[None, :]
-    y = ((np.arange(height) + 0.5) / height - 0.5).astype(np.float32)[:, None]
-    photo = photo * (1 - (x * x + y * y) * np.float32(0.45))[..., None]
-    photo = soften(photo, 0.11)
-    if grey:
-        photo = np.repeat((photo[..., :1] + photo[..., 1:2] * 2 + photo[..., 2:]) / 4, 3, axis=2)
-    tone = np.sqrt(np.clip(photo, 0, 1))  # a gamma of 2
-    tone = mix(tone, tone * tone * (3 - 2 * tone), view.contrast)
-    # Four dice make a bell; most of the grain is common to the three colours.
-    dice = rng.integers(0, 256, (4, height, width), dtype=np.uint8).astype(np.int16).sum(axis=0)
-    grain = soften((dice - 510).astype(np.float32), 0.16)[..., None]
-    if not grey:
-        tint = rng.integers(-100, 101, (height, width, 3), dtype=np.int16).astype(np.float32)
-        grain = grain + tint
-    levels = np.rint(tone * 255 + grain * np.float32(view.grain / 148))
-    pixels = np.clip(levels, 0, 255).astype(np.uint8)
-    file = io.BytesIO()
-    image = Image.fromarray(pixels[..., 0] if grey else pixels)
-    image.save(file, "JPEG", quality=_QUALITY)
-    return file.getvalue()
+def _truth(picture: Picture, camera: Camera) -> Skyline:
+    """The line in the picture, and where it can be seen."""
+    height, width = picture.cover.shape
+    rows = picture.line()
+    inside = (rows > 0) & (rows < height)
+    place = np.clip(rows, 0, height - 1).astype(np.intp), np.arange(width)
+    hidden = picture.hidden > np.float32(0.8)
+    hidden |= bars(camera.border, camera.margin, (height, width))
+    return Skyline(rows=rows, visible=inside & ~hidden[place])
 
 
 SAMPLES: tuple[tuple[Kind, int, int, int], ...] = (

@@ -41,3 +41,19 @@ def test_render_rebuilds_the_samples_byte_for_byte(say, tmp_path):
     for name in made:
         written = (tmp_path / "sample_data" / name).read_bytes()
         assert written == (tmp_path / "expected" / name).read_bytes()
+
+
+def test_render_makes_scenes_of_several_kinds_with_any_camera(say, tmp_path):
+    words = ["--count", "2", "--width", "48", "--height", "40", "--camera", "any"]
+    status, out, _ = say("render", "--out", "a", "--kind", "sea", "night", "sea", *words)
+    assert status == 0
+    assert out.splitlines()[-1] == "4 scenes in a"
+    names = [f"{kind}-{seed}-any.jpg" for kind in ("night", "sea") for seed in (1, 2)]
+    assert sorted(path.name for path in (tmp_path / "a/images").iterdir()) == names
+
+
+def test_render_knows_all_kinds(say, tmp_path):
+    status, _, _ = say("render", "--out", "a", "--kind", "all", "--width", "32", "--height", "32")
+    assert status == 0
+    kinds = {path.stem for path in (tmp_path / "a/images").iterdir()}
+    assert kinds == {f"{kind}-1" for kind in rendering.KINDS}

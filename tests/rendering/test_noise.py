@@ -62,3 +62,11 @@ def test_mounds_lie_apart_and_there_are_more_of_them_where_more_are_asked_for():
     assert (few > 0).mean() < 0.5 * (many > 0).mean()
     assert (chance[few == 0] == 0).all()
     assert chance.max() <= 1
+
+
+def test_a_cell_has_one_number():
+    numbers = noise().cells(X, Y, 50)
+    assert 20 < len(np.unique(numbers)) < 80
+    assert numbers.min() >= 0
+    assert numbers.max() < 1
+    assert np.mean(numbers[:, 1:] == numbers[:, :-1]) > 0.9
