@@ -43,5 +43,5 @@ def test_the_horizon_is_hazier_than_the_ground_at_the_feet():
 def test_fields_differ_in_colour_and_lie_flat():
     bare, fields = built(GROUND), built(replace(GROUND, cover="heath", fields=80.0))
     green = fields.colour[..., 1] - fields.colour[..., 0]
-    assert np.std(green) > np.std(bare.colour[..., 1] - bare.colour[..., 0]) + 0.01
+    assert np.std(green) > 1.2 * np.std(bare.colour[..., 1] - bare.colour[..., 0])
     np.testing.assert_allclose(fields.rows[-1], bare.rows[-1], atol=1.0)
