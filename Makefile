@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help demo test check docs bounds fuzz legs bench reliability pictures samples lock clean
+.PHONY: help demo test check docs bounds fuzz legs bench reliability pictures samples bank lock clean
 
 SOURCES = pyproject.toml requirements.txt tools/setup.sh
 MKDOCS = NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict --quiet
@@ -57,6 +57,14 @@ pictures: .venv/.installed-dev  ## Draw the pictures of the docs again.
 
 samples: .venv/.installed-run  ## Rebuild sample_data, byte for byte.
 	.venv/bin/skyline-viz render --out sample_data
+
+SCENES = build/rendered
+
+bank: .venv/.installed-run  ## Train the shipped filter bank; DATA=FOLDER names the folder of the real data sets.
+	for kind in clear hazy cloudy snow foreground spires desert rover; do \
+	    .venv/bin/skyline-viz render --kind $$kind --seed 2000 --count 8 --out $(SCENES) || exit 1; done
+	.venv/bin/skyline-viz train "$(DATA)/web_dataset" "$(DATA)/mountains" "$(DATA)/uav" $(SCENES) \
+	    --out skyline_viz/filter_bank.npz
 
 LOCK = .venv/bin/uv pip compile --quiet $(if $(UPGRADE),--upgrade) --universal --python-version 3.11 --generate-hashes \
     --no-emit-index-url --no-header pyproject.toml --group build

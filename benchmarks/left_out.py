@@ -30,7 +30,7 @@ from skyline_viz.datasets.item import Item
 from skyline_viz.evaluation.results import PhotoResult
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.sky_model import SkyModel
-from skyline_viz.training import GramMatrices
+from skyline_viz.training import GramMatrices, together
 
 Results: TypeAlias = Mapping[str, Sequence[PhotoResult]]
 """Results of photos by the name of their source; nothing of sources that cannot be left out."""
@@ -94,7 +94,7 @@ class LeftOut:
     """All of them."""
 
     sums: dict[tuple[str, str], GramMatrices] = field(default_factory=dict)
-    """What has been learned, by the family of detectors and the name of the source."""
+    """What has been learned, by the family of detectors and the place."""
 
     def detector(self, variant: Variant, place: str) -> Detector | None:
         """The detector with filters and a sky model that have not seen a place."""
@@ -102,8 +102,8 @@ class LeftOut:
         if sky is None:
             return None
         detector = Detector(config=variant.config, label=variant.name, sky=sky)
-        others = [source for source in self.sources if source.place != place]
-        return detector.from_sums(reduce(add, (self._learned(detector, one) for one in others)))
+        places = dict.fromkeys(one.place for one in self.sources if one.place != place)
+        return detector.from_sums(together([self._learned(detector, one) for one in places]))
 
     def results(self, variant: Variant) -> Results:
         """Each source, tested by the detector that has not seen it."""
@@ -115,11 +115,13 @@ class LeftOut:
                 found[source.name] = tested.results[variant.name]
         return found
 
-    def _learned(self, detector: Detector, source: Source) -> GramMatrices:
-        """What there is to learn from a source; gathered once for detectors that learn alike."""
-        key = (detector.family, source.name)
+    def _learned(self, detector: Detector, place: str) -> GramMatrices:
+        """What there is to learn from a place; gathered once for detectors that learn alike."""
+        key = (detector.family, place)
         if key not in self.sums:
-            gathered = run(partial(_gather, detector), source.items, workers=0, title=source.name)
+            of_place = [source for source in self.sources if source.place == place]
+            items = [item for source in of_place for item in (*source.items, *source.rough)]
+            gathered = run(partial(_gather, detector), items, workers=0, title=place)
             self.sums[key] = reduce(add, _all(gathered))
         return self.sums[key]
 

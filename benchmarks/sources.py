@@ -40,6 +40,9 @@ class Source:
     tolerance: float
     """A_err below which a line is near the truth, in pixels."""
 
+    rough: Sequence[Item] = ()
+    """More photos of the place, by whose truth others learn, but nothing is tested."""
+
     clips: bool = False
     """Whether the photos are frames of clips, named ``CLIP-FRAME``: such are not independent."""
 
@@ -69,13 +72,13 @@ class Source:
 def sources(data: Path) -> list[Source]:
     """The sources of which there are photos in a folder, and scenes rendered here."""
     web, mountains, uav = (_items(data / name) for name in ("web_dataset", "mountains", "uav"))
-    graded = {
-        grade: [item for item in mountains if item.name.startswith(grade)] for grade in ("A", "B")
-    }
+    good, fair, rough = (
+        [item for item in mountains if item.name.startswith(grade)] for grade in ("A", "B", "C")
+    )
     known = [
         Source("Web", "web", web, 4),
-        Source("mountains A", "mountains", graded["A"], 5),
-        Source("mountains B", "mountains", graded["B"], 10),
+        Source("mountains A", "mountains", good, 5, rough),
+        Source("mountains B", "mountains", fair, 10),
         Source("UAV", "uav", uav, 6, clips=True),
         Source("rendered", RENDERED, _rendered(), 4),
     ]

@@ -51,7 +51,7 @@ def _commands(methods: Methods) -> Any:  # noqa: ANN401  # a union that is made 
         "detect": Detect(missing, methods=methods),
         "inspect": Inspect(missing, methods=methods),
         "gallery": GalleryCommand(methods=methods),
-        "train": Train(missing, missing, training=TrainingConfig(detector=methods.config)),
+        "train": Train(missing, missing, training=TrainingConfig.of(methods.config)),
         "evaluate": Evaluate(missing, methods=methods),
         "tables": Tables(missing, methods=methods),
         "diagnose": Diagnose(missing, methods=methods),

@@ -70,17 +70,24 @@ class Detector:
 
     @property
     def training(self) -> TrainingConfig:
-        """How it learns: with its own edges, and filters of the size and bins that its bank has."""
-        bank = self.bank
-        known = {"smoothness": bank.provenance.smoothness} if bank.provenance.images else {}
-        return TrainingConfig(bank.bins, bank.size, detector=self.config, **known)
+        """How it learns: with its own edges, and filters of the size and bins that its bank has.
+
+        In all else it learns as its bank did, if that saw the photo as this detector does; or as
+        is usual for its edges.
+        """
+        bank, made = self.bank, self.bank.provenance
+        usual = replace(TrainingConfig.of(self.config), bins=bank.bins, filter_size=bank.size)
+        if not made.images or made.edges != self.config.edge_source:
+            return usual
+        return replace(usual, reach=made.reach, smoothness=made.smoothness, pooling=made.pooling)
 
     @property
     def family(self) -> str:
         """Detectors learn the same filters when they see the same edges and have such filters."""
         training = self.training
-        learned = (training.bins, training.filter_size, training.smoothness)
-        return f"filters {learned} of edges {edge_settings(self.config)}"
+        shape = (training.bins, training.filter_size)
+        rule = (training.reach, training.smoothness, training.pooling)
+        return f"filters {shape} by {rule} of edges {edge_settings(self.config)}"
 
     def fit(self, items: Iterable[Item], seed: int = 0) -> Detector:
         """The detector with filters that were learned from photos with truth.

@@ -53,7 +53,7 @@ class Provenance:
     """Seed of the negative samples."""
 
     edges: str = "colour"
-    """What Canny saw when the negatives were drawn, ``grey`` or ``colour``."""
+    """What Canny saw when the samples were drawn, ``grey`` or ``colour``."""
 
     smoothness: float = 0.0
     """Weight of ``Q``."""
@@ -64,10 +64,16 @@ class Provenance:
     detector: DetectorConfig | None = None
     """Settings of the detector for which it was trained; banks of earlier versions know none."""
 
+    reach: int = 0
+    """See `TrainingConfig`; banks of earlier versions, which do not tell, have 0."""
+
+    pooling: float = 50.0
+    """See `TrainingConfig`; banks of earlier versions pooled bins of fewer samples only."""
+
     def __post_init__(self) -> None:
         """Make numbers Python's own, as files need them."""
-        for name in ("images", "seed", "smoothness"):
-            value = plain_number(getattr(self, name), real=name == "smoothness")
+        for name in ("images", "seed", "reach", "smoothness", "pooling"):
+            value = plain_number(getattr(self, name), real=name in ("smoothness", "pooling"))
             object.__setattr__(self, name, value)
 
     @property
@@ -86,7 +92,7 @@ class FilterBank:
     Examples:
         >>> bank = FilterBank.default()
         >>> bank.filters.shape, int(bank.starved.sum())
-        ((288, 7, 7), 181)
+        ((288, 7, 7), 120)
     """
 
     filters: F32

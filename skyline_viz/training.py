@@ -10,23 +10,34 @@ $$
 A Gram matrix is a plain sum over training samples (equations 18 and 19), so the work can be spread
 over photos, processes and machines and added up. Patches are whole numbers and targets whole or
 half ones, so the float64 sums are exact: the order of adding does not matter.
+
+Many bins see few samples. Ours, not the paper's: each bin also takes the samples of all bins of its
+orientation $o$, $N_o$ in number, scaled down so that together they count for $k$ samples:
+
+$$
+\mathbf{h} = \left(\mathbf{Q} + \mathbf{A}^T \mathbf{A}
++ \frac{k}{N_o} \mathbf{A}_o^T \mathbf{A}_o\right)^{-1}
+\left(\mathbf{A}^T \mathbf{b} + \frac{k}{N_o} \mathbf{A}_o^T \mathbf{b}_o\right)
+$$
 """
 
 import math
 import zlib
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from operator import add
 
 import numpy as np
 import numpy.typing as npt
 
 from skyline_viz._version import __version__
-from skyline_viz.arrays import F64, U8, Int, check_photo
+from skyline_viz.arrays import F64, U8, Bool, Int, check_photo
 from skyline_viz.bins import Bins
 from skyline_viz.config import TrainingConfig
 from skyline_viz.datasets.item import Item, photo_and_truth
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
-from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank, Provenance
+from skyline_viz.filter_bank import FilterBank, Provenance
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.tensor import tensor_at
 from skyline_viz.terrain import FEATURES, solve_terrain, terrain_sums
@@ -48,6 +59,9 @@ class GramMatrices:
     samples: npt.NDArray[np.int64]
     """``(K,)`` number of samples, flipped ones included."""
 
+    weights: F64
+    """``(K,)`` for how many samples they count; see `together`."""
+
     terrain: F64
     """``(FEATURES + 1, FEATURES + 1)`` sums for the block model of sky and terrain."""
 
@@ -64,8 +78,16 @@ class GramMatrices:
         rim = (own - size) // 2
         taps = np.arange(own * own).reshape(own, own)[rim : own - rim, rim : own - rim]
         kept = np.append(taps, own * own)  # and the target
-        sums = self.sums[:, kept[:, None], kept]
-        return GramMatrices(sums, self.samples, self.terrain, self.images)
+        return replace(self, sums=self.sums[:, kept[:, None], kept])
+
+    def counted(self, factor: float) -> "GramMatrices":
+        """The same samples, each of which counts `factor` times."""
+        return replace(
+            self,
+            sums=self.sums * factor,
+            weights=self.weights * factor,
+            terrain=self.terrain * factor,
+        )
 
     @classmethod
     def empty(cls, config: TrainingConfig) -> "GramMatrices":
@@ -73,13 +95,15 @@ class GramMatrices:
         length = config.filter_size**2 + 1
         count = config.bins.count
         terrain = np.zeros((FEATURES + 1, FEATURES + 1))
-        return cls(np.zeros((count, length, length)), np.zeros(count, np.int64), terrain, 0)
+        sums = np.zeros((count, length, length))
+        return cls(sums, np.zeros(count, np.int64), np.zeros(count), terrain, 0)
 
     def __add__(self, other: "GramMatrices") -> "GramMatrices":
         """Sums over both sets of samples."""
         return GramMatrices(
             self.sums + other.sums,
             self.samples + other.samples,
+            self.weights + other.weights,
             self.terrain + other.terrain,
             self.images + other.images,
         )
@@ -123,8 +147,9 @@ def train(
 def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> GramMatrices:
     """Gram matrices of one photo.
 
-    Positives are the pixels of the true line, negatives as many edge pixels away from it; all of
-    them count a second time, flipped left-right.
+    Positives are the edge pixels on the true line, or its pixels as they are with a reach of 0.
+    Negatives are as many edge pixels away from it. All of them count a second time, flipped
+    left-right.
 
     Raises:
         SkylineError: The photo and the truth differ in width.
@@ -137,6 +162,8 @@ def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> Gram
     columns = np.flatnonzero(truth.visible & (truth_rows < height)).astype(np.int32)
     rows = truth_rows[columns]
     edges, _ = candidate_edges(photo, config.detector)
+    if config.reach:
+        rows, columns = _on_edges(edges, rows, columns, config.reach)
     edge_rows, edge_columns = edge_pixels(edges)
     off_line = np.abs(edge_rows - truth_rows[edge_columns]) > config.band
     negatives = np.flatnonzero(off_line & truth.visible[edge_columns])
@@ -149,7 +176,8 @@ def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> Gram
     index = config.bins.of(tensor_at(photo, rows, columns))
     patches = _patches(to_grey(photo), rows, columns, config.filter_size)
     sums, samples = _summed(np.column_stack([patches, targets]), index, config.bins)
-    return GramMatrices(sums, samples, terrain_sums(photo, edges, truth), 1)
+    terrain = terrain_sums(photo, edges, truth)
+    return GramMatrices(sums, samples, samples.astype(np.float64), terrain, 1)
 
 
 def gather_item(config: TrainingConfig, seed: int, item: Item) -> GramMatrices:
@@ -162,8 +190,29 @@ def gather_item(config: TrainingConfig, seed: int, item: Item) -> GramMatrices:
     return gather(*photo_and_truth(item), seed, config)
 
 
+def together(datasets: Sequence[GramMatrices]) -> GramMatrices:
+    """Sums over several data sets, of which each counts as much as each other one.
+
+    A data set is a camera and a kind of landscape, and its photos resemble each other: more of
+    them, or larger ones, say less than their number. All count together for as many samples as
+    they are. One data set alone stays as it is.
+
+    Args:
+        datasets: Sums over each data set, at least one; those without a sample do not count.
+    """
+    sizes = [int(one.samples.sum()) for one in datasets]
+    share = sum(sizes) / max(1, sum(size > 0 for size in sizes))
+    return reduce(
+        add,
+        [
+            one.counted(share / size) if size else one
+            for one, size in zip(datasets, sizes, strict=True)
+        ],
+    )
+
+
 def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = "") -> FilterBank:
-    """Filters of all bins, ``(Q + A'A)^-1 A'b`` (equation 17); a starved bin takes a pooled one.
+    """Filters of all bins (equation 17), each drawn towards that of all bins of its orientation.
 
     Args:
         gram: Sums over all training photos.
@@ -176,11 +225,10 @@ def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = 
     """
     if gram.samples.sum() == 0:
         raise ValueError("training needs at least one photo with a visible true skyline")
-    filters = regress(gram.sums, config.smoothness)
-    fallback = regress(pooled(gram.sums, config.bins), config.smoothness)
-    starved = gram.samples < STARVED_SAMPLES
+    share = config.pooling / np.maximum(pooled(gram.weights, config.bins), 1.0)
+    sums = gram.sums + share[:, None, None] * pooled(gram.sums, config.bins)
     return FilterBank(
-        filters=np.where(starved[:, None, None], fallback, filters).astype(np.float32),
+        filters=regress(sums, config.smoothness).astype(np.float32),
         samples=gram.samples,
         terrain=solve_terrain(gram.terrain),
         bins=config.bins,
@@ -189,7 +237,9 @@ def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = 
             images=gram.images,
             seed=seed,
             edges=config.detector.edge_source,
+            reach=config.reach,
             smoothness=config.smoothness,
+            pooling=config.pooling,
             package=__version__,
             detector=config.detector,
         ),
@@ -207,10 +257,10 @@ def regress(sums: F64, smoothness: float) -> F64:
 
 
 def pooled(sums: F64, bins: Bins, over: tuple[int, ...] = (0, 1)) -> F64:
-    """Gram matrices in which each bin holds the sum over all bins that differ from it in `over`.
+    """Sums in which each bin holds that of all bins which differ from it in `over`.
 
     Args:
-        sums: ``(K, n, n)``.
+        sums: ``(K, ...)``.
         bins: Their bins.
         over: 0 pools coherence, 1 strength, 2 orientation.
     """
@@ -230,6 +280,16 @@ def smoothness_form(size: int) -> F64:
     line = np.diff(np.eye(size), axis=0)
     chain = line.T @ line  # Laplacian of taps in a row
     return np.kron(chain, np.eye(size)) + np.kron(np.eye(size), chain)
+
+
+def _on_edges(edges: Bool, rows: Int, columns: Int, reach: int) -> tuple[Int, Int]:
+    """The edge pixels nearest to others in their columns; pixels without one are left out."""
+    steps = np.array(sorted(range(-reach, reach + 1), key=abs), np.int32)
+    near = rows[:, None] + steps
+    inside = (near >= 0) & (near < len(edges))
+    hit = inside & edges[np.clip(near, 0, len(edges) - 1), columns[:, None]]
+    found = np.flatnonzero(hit.any(axis=1))
+    return near[found, hit[found].argmax(axis=1)], columns[found]
 
 
 def _summed(samples: F64, index: Int, bins: Bins) -> tuple[F64, npt.NDArray[np.int64]]:

@@ -153,7 +153,7 @@ def test_other_filter_sizes_are_refused(size):
         TrainingConfig(filter_size=size)
 
 
-@pytest.mark.parametrize("name", ["band", "smoothness"])
+@pytest.mark.parametrize("name", ["band", "smoothness", "pooling", "reach"])
 @pytest.mark.parametrize("value", [-1, np.nan, np.inf])
 def test_other_weights_are_refused(name, value):
     with pytest.raises(ValueError, match=name):
@@ -161,7 +161,15 @@ def test_other_weights_are_refused(name, value):
 
 
 def test_weights_of_zero():
-    assert TrainingConfig(band=0, smoothness=0).smoothness == 0
+    assert TrainingConfig(band=0, smoothness=0, pooling=0).smoothness == 0
+
+
+def test_the_published_method_learns_from_the_true_pixels():
+    paper = TrainingConfig.of(DetectorConfig.paper())
+    assert (paper.reach, paper.smoothness, paper.pooling) == (0, 100, 50)
+    assert paper.detector == DetectorConfig.paper()
+    steep = DetectorConfig(delta=9)
+    assert TrainingConfig.of(steep) == TrainingConfig(detector=steep)
 
 
 NUMBERS = st.sampled_from([np.float32, np.float64, np.float16, Fraction])
@@ -172,15 +180,17 @@ WHOLE = st.sampled_from([np.int16, np.int64, np.uint8])
 def test_numbers_of_any_library_are_kept_as_pythons_own(number, whole, quarters):
     value = number(quarters / 4)
     config = DetectorConfig(v=value, delta=whole(quarters))
-    training = TrainingConfig(Bins(whole(3), coherence_top=number(0.5)), whole(7), number(8))
-    provenance = Provenance(seed=whole(quarters), smoothness=value)
+    training = TrainingConfig(
+        Bins(whole(3), coherence_top=number(0.5)), whole(7), number(8), reach=whole(quarters)
+    )
+    provenance = Provenance(seed=whole(quarters), smoothness=value, reach=whole(2), pooling=value)
     plain = DetectorConfig(v=quarters / 4, delta=quarters)
     assert json.dumps(asdict(config)) == json.dumps(asdict(plain))
     assert config.name == plain.name
-    wanted = TrainingConfig(Bins(3, coherence_top=0.5), 7, 8)
+    wanted = TrainingConfig(Bins(3, coherence_top=0.5), 7, 8, reach=quarters)
     assert json.dumps(asdict(training)) == json.dumps(asdict(wanted))
     assert json.dumps(asdict(provenance)) == json.dumps(
-        asdict(Provenance(seed=quarters, smoothness=quarters / 4))
+        asdict(Provenance(seed=quarters, smoothness=quarters / 4, reach=2, pooling=quarters / 4))
     )
 
 

@@ -11,11 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.bins import Bins
-from skyline_viz.config import DetectorConfig
+from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.cost import normalised
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation.metrics import a_err
-from skyline_viz.filter_bank import FilterBank
+from skyline_viz.filter_bank import FilterBank, Provenance
 from skyline_viz.path import margins, path_tables
 from skyline_viz.skyline import Skyline
 from testing.detections import BOTH, mountains, random_photo
@@ -299,3 +299,18 @@ def test_the_given_bank_scores():
     assert not detection.scores.any()
     assert detection.bank is silent
     assert Detector(bank).detect(photo).scores.any()
+
+
+# How it learns
+
+
+def test_it_learns_as_its_bank_did_where_that_saw_the_same(detector):
+    made = Provenance("hills", 4, edges="colour", smoothness=3, reach=1, pooling=2)
+    bank = replace(detector.bank, provenance=made)
+    training = replace(detector, bank=bank).training
+    assert (training.reach, training.smoothness, training.pooling) == (1, 3, 2)
+    paper = Detector(bank, DetectorConfig.paper())
+    assert paper.training == TrainingConfig.of(DetectorConfig.paper())
+    assert paper.family != detector.family
+    unknown = replace(detector, bank=replace(bank, provenance=Provenance()))
+    assert unknown.training == TrainingConfig()

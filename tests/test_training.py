@@ -1,4 +1,4 @@
-"""Training: sums that add up, seeds, flipped samples, the normal equations, starved bins."""
+"""Training: sums that add up, seeds, flipped samples, the normal equations, pooling."""
 
 from dataclasses import replace
 
@@ -11,7 +11,6 @@ from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.detector import Detector
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.evaluation.metrics import a_err
-from skyline_viz.filter_bank import STARVED_SAMPLES
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.tensor import tensor_at
 from skyline_viz.training import (
@@ -21,11 +20,13 @@ from skyline_viz.training import (
     regress,
     smoothness_form,
     solve,
+    together,
     train,
 )
 
 COARSE = Bins(coherences=2, strengths=3, orientations=4)
 CONFIG = TrainingConfig(bins=COARSE)
+AS_PUBLISHED = TrainingConfig(bins=COARSE, reach=0, smoothness=100, pooling=0)
 
 
 def mountains(seed=0, height=96, width=140):
@@ -50,6 +51,17 @@ def lonely(height=60, width=90):
     return cv2.GaussianBlur(photo.astype(np.uint8), (0, 0), 0.6), truth
 
 
+def on_edges(photo, truth, config):
+    """The positives of a reach above 0, pixel by pixel."""
+    edges, _ = candidate_edges(photo, config.detector)
+    pixels = []
+    for column, row in enumerate(truth.rows.astype(int)):
+        near = [one for one in np.flatnonzero(edges[:, column]) if abs(one - row) <= config.reach]
+        if near:
+            pixels.append((min(near, key=lambda one: (abs(one - row), one)), column, 255.0))
+    return pixels
+
+
 def slow_sums(photo, pixels, config):
     """Gram matrices of (row, column, target) samples, one by one."""
     size = config.filter_size
@@ -67,11 +79,25 @@ def slow_sums(photo, pixels, config):
     return sums, samples
 
 
+def sum_of_both(photo, pixels):
+    """Gram matrices of samples and of their flipped twins, with `CONFIG`."""
+    flipped = [(row, photo.shape[1] - 1 - column, target) for row, column, target in pixels]
+    here = slow_sums(photo, pixels, CONFIG)
+    there = slow_sums(np.ascontiguousarray(photo[:, ::-1]), flipped, CONFIG)
+    return here[0] + there[0]
+
+
 def all_pixels(photo, truth, config):
     """Every possible sample: the true line, and all edges away from it."""
-    pixels = [
-        (int(row), column, 255.0) for column, row in enumerate(truth.rows) if truth.visible[column]
-    ]
+    pixels = (
+        on_edges(photo, truth, config)
+        if config.reach
+        else [
+            (int(row), column, 255.0)
+            for column, row in enumerate(truth.rows)
+            if truth.visible[column]
+        ]
+    )
     edges, _ = candidate_edges(photo, config.detector)
     for row, column in zip(*edge_pixels(edges), strict=True):
         if truth.visible[column] and abs(row - truth.rows[column]) > config.band:
@@ -81,6 +107,11 @@ def all_pixels(photo, truth, config):
 
 def same_sums(one, other):
     return np.array_equal(one.sums, other.sums) and np.array_equal(one.samples, other.samples)
+
+
+def shares(gram):
+    """Sums over samples that together count for one."""
+    return gram.sums / gram.samples.sum()
 
 
 def targets(gram):
@@ -99,10 +130,11 @@ def grams():
 # Gathering
 
 
+@pytest.mark.parametrize("reach", [0, 2])
 @pytest.mark.parametrize("size", [3, 7, 9])
 @pytest.mark.parametrize("bins", [COARSE, Bins(), Bins(1, 2, 8)], ids=["few", "published", "other"])
-def test_sums_are_those_of_the_photo_and_of_its_flipped_twin(size, bins):
-    config = TrainingConfig(bins=bins, filter_size=size)
+def test_sums_are_those_of_the_photo_and_of_its_flipped_twin(size, bins, reach):
+    config = TrainingConfig(bins=bins, filter_size=size, reach=reach)
     photo, truth = lonely()
     pixels = all_pixels(photo, truth, config)
     assert 90 < len(pixels) < 180  # fewer negatives than positives: all are drawn
@@ -112,7 +144,28 @@ def test_sums_are_those_of_the_photo_and_of_its_flipped_twin(size, bins):
     found = gather(photo, truth, 0, config)
     assert np.array_equal(found.samples, here[1] + there[1])
     assert np.array_equal(found.sums, here[0] + there[0])
+    assert np.array_equal(found.weights, found.samples)
     assert found.images == 1
+
+
+def test_positives_are_the_edges_nearest_to_a_truth_that_is_a_little_off():
+    photo, truth = lonely()
+    near = gather(photo, Skyline(truth.rows + 2), 0, CONFIG)
+    off = gather(photo, Skyline(truth.rows + 2), 0, AS_PUBLISHED)
+    pixels = all_pixels(photo, Skyline(truth.rows + 2), CONFIG)
+    rows, columns = np.array([pixel[:2] for pixel in pixels if pixel[2] == 255]).T
+    edges, _ = candidate_edges(photo, CONFIG.detector)
+    assert edges[rows, columns].all()
+    assert np.array_equal(near.sums, sum_of_both(photo, pixels))
+    assert not np.array_equal(near.sums, off.sums)
+
+
+def test_columns_without_an_edge_near_the_truth_have_no_positive():
+    photo, truth = lonely()
+    rows = truth.rows.copy()
+    rows[30:50] = 5  # in the middle of the sky
+    assert targets(gather(photo, Skyline(rows), 0, CONFIG))[0] == 2 * 70
+    assert targets(gather(photo, Skyline(rows), 0, AS_PUBLISHED))[0] == 2 * 90
 
 
 def test_there_are_as_many_negatives_as_positives(grams):
@@ -219,8 +272,10 @@ def test_negatives_lie_outside_the_band(band):
 def test_training_sees_the_detectors_edges():
     photo, truth = mountains()
     sparse = DetectorConfig(low_threshold=1e5, high_threshold=1e5, fit_thresholds=False)
-    gram = gather(photo, truth, 0, replace(CONFIG, detector=sparse))
+    gram = gather(photo, truth, 0, replace(AS_PUBLISHED, detector=sparse))
     assert targets(gram) == (2 * 140, 0)
+    gram = gather(photo, truth, 0, replace(CONFIG, detector=sparse))
+    assert targets(gram) == (0, 0)
 
 
 def test_fractional_rows_are_rounded():
@@ -306,18 +361,58 @@ def test_pooling(over):
         assert np.allclose(found[index], sums[like].sum(axis=0))
 
 
-def test_starved_bins_take_the_filter_of_their_orientation(grams):
+def test_each_bin_takes_its_orientation_for_so_many_samples(grams):
     gram = sum(grams[1:], grams[0])
-    starved = gram.samples < STARVED_SAMPLES
-    assert 0 < starved.sum() < COARSE.count
+    bank = solve(gram, 0, replace(CONFIG, pooling=70))
+    for index in (0, 5, 23):
+        like = np.arange(index % 4, COARSE.count, 4)
+        pool = gram.sums[like].sum(axis=0) * 70 / gram.samples[like].sum()
+        (expected,) = regress((gram.sums[index] + pool)[None], CONFIG.smoothness)
+        assert np.allclose(bank.filters[index], expected, atol=1e-6)
+
+
+def test_without_pooling_each_bin_is_alone_as_published(grams):
+    gram = sum(grams[1:], grams[0])
+    bank = solve(gram, 0, AS_PUBLISHED)
+    assert np.array_equal(bank.filters, regress(gram.sums, 100.0).astype(np.float32))
+    assert not bank.filters[gram.samples == 0].any()
+
+
+def test_bins_without_samples_take_the_filter_of_their_orientation(grams):
+    gram = sum(grams[1:], grams[0])
+    bare = gram.samples == 0
     bank = solve(gram, 0, CONFIG)
-    assert np.array_equal(bank.starved, starved)
-    own = regress(gram.sums, CONFIG.smoothness).astype(np.float32)
-    assert np.array_equal(bank.filters[~starved], own[~starved])
-    grid = gram.sums.reshape(6, 4, 50, 50)
-    fallback = regress(grid.sum(axis=0), CONFIG.smoothness).astype(np.float32)
-    for index in np.flatnonzero(starved):
-        assert np.allclose(bank.filters[index], fallback[index % 4], atol=1e-6)
+    assert 0 < bare.sum() < COARSE.count
+    assert np.abs(bank.filters[bare]).max(axis=(1, 2)).all()
+
+
+def test_the_more_pooling_the_more_alike(grams):
+    gram = sum(grams[1:], grams[0])
+    spreads = []
+    for pooling in (1, 1e3, 1e6, 1e9):
+        filters = solve(gram, 0, replace(CONFIG, pooling=pooling)).filters.reshape(6, 4, -1)
+        spreads.append(filters.std(axis=0).mean())
+    assert sorted(spreads, reverse=True) == spreads
+    assert spreads[-1] < 1e-3 * spreads[0]
+
+
+# Several data sets
+
+
+def test_data_sets_count_alike_whatever_their_number_of_photos(grams):
+    few, many = grams[0], sum(grams[2:], grams[1])
+    both = together([few, many])
+    assert np.array_equal(both.samples, few.samples + many.samples)
+    assert both.images == 4
+    assert both.weights.sum() == pytest.approx(both.samples.sum())
+    assert np.allclose(both.sums, both.weights.sum() / 2 * (shares(few) + shares(many)))
+
+
+def test_a_data_set_alone_is_as_it_is(grams):
+    assert same_sums(together(grams[:1]), grams[0])
+    empty = GramMatrices.empty(CONFIG)
+    assert same_sums(together([grams[0], empty]), grams[0])
+    assert together([empty, empty]).samples.sum() == 0
 
 
 # Whole banks

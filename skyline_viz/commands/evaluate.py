@@ -66,7 +66,8 @@ class Evaluate(OnTruth):
         chosen = self.methods.chosen(to_train=bool(self.folds))
         if not folds:
             for one in chosen:
-                if methods.learned_from(one) == dataset:
+                learned = methods.learned_from(one)
+                if dataset in (learned, *learned.split(", ")):
                     say(f"{one.name} was trained on {dataset}, so this is no test; see --folds.")
         if len(chosen) > 1:
             return chosen, folds or "as they are"

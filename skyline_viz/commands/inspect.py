@@ -32,7 +32,6 @@ from skyline_viz.command_line.settings import (
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee, pixels_of
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.commands import inspect_more
-from skyline_viz.config import TrainingConfig
 from skyline_viz.running.batch import Failure, sentence
 from skyline_viz.running.progress import ProgressBar
 from skyline_viz.system.aftermath import passing_folder
@@ -298,8 +297,7 @@ class Inspect:
         others = [item for item in with_truth(dataset) if item.photo_path.resolve() != own]
         if not others:
             raise UsageError(f"{dataset.name} holds no photo with a truth but {one.name} itself.")
-        training = TrainingConfig(bins=detector.bank.bins, detector=detector.config)
-        banks, failed = evaluation.train_sizes(others, training, dataset=dataset.name)
+        banks, failed = evaluation.train_sizes(others, detector.training, dataset=dataset.name)
         failures += failed
         return banks
 

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
 from skyline_viz import evaluation
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import GOOD, UsageError, counted, status_after, tell
-from skyline_viz.command_line.settings import Folder, Preset
+from skyline_viz.command_line.settings import Preset
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
-    from skyline_viz.datasets.layouts import Dataset, DatasetItem
+    from skyline_viz.datasets.layouts import DatasetItem
     from skyline_viz.detector import Detector
     from skyline_viz.method import Configurable
 
@@ -29,8 +29,13 @@ if TYPE_CHECKING:
 class Train:
     """Learn our filters, or another method, from photos with truth."""
 
-    dataset: tyro.conf.Positional[Folder]
-    """Folder of a data set, in a published layout or plain."""
+    datasets: Annotated[
+        tuple[Path, ...],
+        tyro.conf.Positional,
+        tyro.conf.arg(metavar="DATASET [DATASET ...]", help_behavior_hint="(required)"),
+    ]
+    """Folders of data sets with truths, in a published layout or plain; each counts alike,
+    whatever the number of its photos."""
 
     out: Annotated[Path, tyro.conf.arg(metavar="FILE")]
     """File for the detector, usually .npz; a file that is there is replaced."""
@@ -49,7 +54,7 @@ class Train:
     """Seed of the negative samples; the same seed and photos give the same bank."""
 
     preset: Preset = "default"
-    """Where training.detector starts from: the best that is known, or the published method."""
+    """Where training starts from: the best that is known, or the published method."""
 
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
@@ -62,12 +67,13 @@ class Train:
 
     def run(self) -> int:
         """Train on all photos that have a truth; return the exit status."""
-        dataset = self.truths.open(self.dataset)
+        if not self.datasets:
+            raise UsageError("which data sets? Name at least one folder.")
         if self.out.is_dir():
             raise UsageError(f"{self.out} is a folder; name a file for the detector.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
-        items = with_truth(dataset)
+        sets, photos = self._sets()
         output_folder(self.out.parent, ())
         from skyline_viz.detector import Detector
         from skyline_viz.methods.registry import find_method, has_learned
@@ -78,10 +84,27 @@ class Train:
             )
         method = find_method(self.method)
         if isinstance(method, Detector):
-            return self._train_ours(dataset, items, method)
-        return self._train_method(dataset.name, items, method)
+            return self._train_ours(sets, photos, method)
+        return self._train_method(sets, method)
 
-    def _train_ours(self, dataset: Dataset, items: Sequence[DatasetItem], method: Detector) -> int:
+    def _sets(self) -> tuple[dict[str, list[DatasetItem]], int]:
+        """The photos with a truth of each data set by its name, and the number of all photos."""
+        sets: dict[str, list[DatasetItem]] = {}
+        photos = 0
+        for folder in self.datasets:
+            dataset = self.truths.open(folder)
+            if dataset.name in sets:
+                raise UsageError(f"two data sets are called {dataset.name}; rename a folder.")
+            sets[dataset.name] = with_truth(dataset)
+            photos += len(dataset)
+        if len(sets) > 1:  # names are those of one data set only
+            for name, items in sets.items():
+                sets[name] = [replace(item, name=f"{name}/{item.name}") for item in items]
+        return sets, photos
+
+    def _train_ours(
+        self, sets: Mapping[str, Sequence[DatasetItem]], photos: int, method: Detector
+    ) -> int:
         if self.pretrained is not None:
             raise UsageError("--pretrained is for FCNs and SegNet, not for our filter bank.")
         training = self.training
@@ -91,23 +114,30 @@ class Train:
                     f"settings are given twice; leave out --preset and --training.detector, or "
                     f"name default instead of {self.method}."
                 )
-            training = replace(training, detector=method.config)
-        bank, failures = evaluation.train_on(
-            items,
-            training,
-            seed=self.seed,
-            dataset=dataset.name,
-            workers=foresee(items, self.workers),
+            training = replace(TrainingConfig.of(method.config), **self._said())
+        workers = foresee([item for items in sets.values() for item in items], self.workers)
+        bank, failures = evaluation.train_on_several(
+            sets, training, seed=self.seed, workers=workers
         )
         trained = replace(method, bank=bank, config=training.detector)
         trained.save(self.out)
-        tell(f"photos used   {bank.provenance.images} of {len(dataset)} in {dataset.name}")
+        tell(f"photos used   {bank.provenance.images} of {photos} in {bank.provenance.dataset}")
         tell(f"samples       {bank.samples.sum():,}, flipped ones included")
         tell(f"starved bins  {bank.starved.sum()} of {counted(bank.bins.count, 'bin')}")
         tell(f"filters       {bank.size} x {bank.size} pixels")
         tell(f"settings      {training.detector.name}")
+        tell(
+            f"learned with  reach {training.reach}, smoothness {training.smoothness:g}, "
+            f"pooling {training.pooling:g}"
+        )
         tell(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
+
+    def _said(self) -> dict[str, Any]:
+        """Single settings of the training that were named, but for those of the detector."""
+        usual = TrainingConfig()
+        said = {one.name: getattr(self.training, one.name) for one in fields(usual)}
+        return {name: value for name, value in said.items() if value != getattr(usual, name)}
 
     def _pretrained(self, method: Configurable) -> Configurable:
         from skyline_viz.methods.parsing import SceneParsing
@@ -116,14 +146,14 @@ class Train:
             raise UsageError(f"--pretrained is for FCNs and SegNet, not for {method.name}.")
         return replace(method, width=1.0, pretrained=self.pretrained)
 
-    def _train_method(
-        self, dataset: str, items: Sequence[DatasetItem], method: Configurable
-    ) -> int:
+    def _train_method(self, sets: Mapping[str, Sequence[DatasetItem]], method: Configurable) -> int:
         from skyline_viz.method import Learner
         from skyline_viz.methods.registry import Trained, save_method
 
         if self.training != TrainingConfig():
             raise UsageError(f"--preset and --training are for our filter bank, not {self.method}.")
+        items = [item for one in sets.values() for item in one]
+        dataset = ", ".join(sets)
         foresee(items)
         if self.pretrained is not None:
             method = self._pretrained(method)

@@ -157,7 +157,7 @@ def table_4(
     rows: list[tuple[Cell, ...]] = []
     config = DetectorConfig.paper()
     for learned, tested in permutations(sets, 2):
-        training = TrainingConfig(detector=config)
+        training = TrainingConfig.of(config)
         bank, _ = train_on(sets[learned], training, seed=seed, dataset=learned, workers=workers)
         found = evaluate(sets[tested], Detector(bank, config), workers=workers, kept=kept)
         (summary,) = found.summaries.values()

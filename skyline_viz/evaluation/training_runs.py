@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -10,7 +10,7 @@ from skyline_viz.config import FILTER_SIZES, TrainingConfig
 from skyline_viz.datasets.item import Item
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.running.batch import Failure, run
-from skyline_viz.training import GramMatrices, gather_item, solve
+from skyline_viz.training import GramMatrices, gather_item, solve, together
 
 
 def train_on(
@@ -36,8 +36,37 @@ def train_on(
     Raises:
         ValueError: Every single photo failed, or there is none.
     """
-    total, failures = _gather_all(items, training, seed, workers)
-    return solve(total, seed, training, dataset), failures
+    return train_on_several({dataset: items}, training, seed=seed, workers=workers)
+
+
+def train_on_several(
+    datasets: Mapping[str, Sequence[Item]],
+    training: TrainingConfig,
+    *,
+    seed: int = 0,
+    workers: int = 1,
+) -> tuple[FilterBank, list[Failure]]:
+    """Learn a filter bank from several data sets, each of which counts as much as each other one.
+
+    Args:
+        datasets: Name of each data set, for the bank's provenance, and its photos with truth.
+        training: How samples are drawn and filters are solved.
+        seed: Seed of the negative samples.
+        workers: Number of processes, see `batch.run`.
+
+    Returns:
+        The bank, and the photos that failed.
+
+    Raises:
+        ValueError: Every single photo of a data set failed, or there is none.
+    """
+    sums = []
+    failures: list[Failure] = []
+    for items in datasets.values():
+        total, failed = _gather_all(items, training, seed, workers)
+        sums.append(total)
+        failures += failed
+    return solve(together(sums), seed, training, ", ".join(datasets)), failures
 
 
 def train_sizes(

@@ -91,6 +91,8 @@ def find_method(text: str) -> Configurable:
 def learned_from(method: str | Method) -> str:
     """Name of the data set that a method was trained on; empty if it is not known.
 
+    Several names have a comma and a space between them.
+
     Args:
         method: A method, or one as `find_method` takes it.
 

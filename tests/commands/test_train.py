@@ -54,3 +54,49 @@ def test_training_goes_on_past_a_bad_photo(say, tmp_path):
     assert status == 1
     assert "1 of 2" in out
     assert "p0.png" in err
+
+
+def test_several_data_sets_are_learned_from_together(say, hills, tmp_path):
+    write_scenes(tmp_path / "other", 3)
+    status, out, err = say("train", hills, "other", "--out", "b.npz")
+    assert (status, err) == (0, "")
+    assert "7 of 7 in hills, other" in out
+    bank = sv.FilterBank.load(tmp_path / "b.npz")
+    sets = {one.name: list(one) for one in map(sv.open_dataset, (hills, tmp_path / "other"))}
+    expected, _ = sv.evaluation.train_on_several(sets, sv.TrainingConfig())
+    np.testing.assert_array_equal(bank.filters, expected.filters)
+    assert bank.provenance == expected.provenance
+    assert bank.provenance.dataset == "hills, other"
+    for one in (hills, "other"):
+        _, _, err = say("evaluate", one, "--bank", "b.npz")
+        assert f"was trained on {sv.open_dataset(one).name}, so this is no test" in err
+
+
+def test_a_bad_photo_of_several_data_sets_is_named_with_its_own(say, hills, tmp_path):
+    write_scenes(tmp_path / "other", 2)
+    (tmp_path / "other" / "images" / "p0.png").write_bytes(b"no photo")
+    status, out, err = say("train", hills, "other", "--out", "b.npz")
+    assert status == 1
+    assert "5 of 6 in hills, other" in out
+    assert "other/" in err
+
+
+def test_a_data_set_is_named_once(say, hills, tmp_path):
+    write_scenes(tmp_path / "there" / "hills", 2)
+    for again in (hills, "there/hills"):
+        status, _, err = say("train", hills, again, "--out", "b.npz")
+        assert status == 2
+        assert err == "skyline-viz: two data sets are called hills; rename a folder.\n"
+    assert not (tmp_path / "b.npz").exists()
+
+
+def test_the_published_method_learns_as_published(say, hills, tmp_path):
+    ways = {"a": ("--preset", "paper"), "b": ("--method", "paper")}
+    for name, way in ways.items():
+        status, out, _ = say("train", hills, "--out", f"{name}.npz", *way)
+        assert status == 0
+        assert "reach 0, smoothness 100, pooling 50" in out
+    assert (tmp_path / "a.npz").read_bytes() == (tmp_path / "b.npz").read_bytes()
+    say("train", hills, "--out", "c.npz", "--method", "paper", "--training.pooling", "0")
+    made = sv.FilterBank.load(tmp_path / "c.npz").provenance
+    assert (made.reach, made.smoothness, made.pooling) == (0, 100, 0)

@@ -1,5 +1,7 @@
 """The studies of Tables III and IV: what is trained, and on what."""
 
+from dataclasses import replace
+
 import pytest
 
 import skyline_viz as sv
@@ -16,7 +18,7 @@ def test_filters_of_a_size_are_learned_for_each_fold(items, size):
     assert found.methods["paper"].bank.size == size
     expected = sv.train(
         [(one.photo(), one.truth()) for one in items[1::2]],
-        config=sv.TrainingConfig(filter_size=size, detector=config),
+        config=replace(sv.TrainingConfig.of(config), filter_size=size),
     )
     assert found.methods["paper"].bank.filters == pytest.approx(expected.filters, abs=1e-6)
 

@@ -5,7 +5,8 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.config import FILTER_SIZES, TrainingConfig
-from skyline_viz.evaluation.training_runs import train_on, train_sizes
+from skyline_viz.evaluation.training_runs import train_on, train_on_several, train_sizes
+from skyline_viz.training import GramMatrices, gather_item, solve, together
 
 
 def test_training_is_that_of_the_library(items):
@@ -21,6 +22,29 @@ def test_two_processes_train_the_same_bank(items):
     alone, _ = train_on(items, TrainingConfig())
     shared, _ = train_on(items, TrainingConfig(), workers=2)
     np.testing.assert_array_equal(alone.filters, shared.filters)
+
+
+def test_several_data_sets_count_alike_and_are_named(items):
+    config = TrainingConfig()
+    bank, failures = train_on_several({"few": items[:1], "many": items[1:]}, config, seed=2)
+    sums = [
+        sum((gather_item(config, 2, one) for one in part), GramMatrices.empty(config))
+        for part in (items[:1], items[1:])
+    ]
+    expected = solve(together(sums), 2, config, "few, many")
+    assert failures == []
+    np.testing.assert_array_equal(bank.filters, expected.filters)
+    assert bank.provenance == expected.provenance
+    assert bank.provenance.images == len(items)
+    alike, _ = train_on(items, config, seed=2)
+    np.testing.assert_array_equal(bank.samples, alike.samples)
+    assert not np.allclose(bank.filters, alike.filters)
+
+
+def test_a_data_set_of_which_no_photo_can_be_used_is_not_passed_over(items, tmp_path):
+    gone = sv.DatasetItem("bad/gone", tmp_path / "gone.png", items[0].truth_path)
+    with pytest.raises(ValueError, match="the first one failed: bad/gone: "):
+        train_on_several({"good": items, "bad": [gone]}, TrainingConfig())
 
 
 def test_training_on_nothing_is_refused(tmp_path):
