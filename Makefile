@@ -41,8 +41,8 @@ fuzz: .venv/.installed-dev  ## The properties, with twenty times as many example
 legs: .venv/.installed-dev  ## The tests with the lowest and the newest versions, on Python 3.11 and 3.13.
 	tools/legs.sh
 
-bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the folder of the real data sets.
-	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)")
+bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the real data sets, MODELS=FOLDER sky models that have not seen one of them.
+	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)" $(if $(MODELS),"$(MODELS)"))
 
 reliability: .venv/.installed-dev  ## The tables of docs/reliability.md: faults, kills, offline minutes, hostile files.
 	.venv/bin/python -m benchmarks.reliability

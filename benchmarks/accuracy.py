@@ -7,6 +7,7 @@ from pathlib import Path
 from benchmarks.table import A_ERR_HEADER, a_err_cells, markdown
 from skyline_viz import Detector, DetectorConfig, Summary, cross_validate, evaluate, open_dataset
 from skyline_viz.evaluation.results import worst
+from skyline_viz.sky_model import SkyModel
 
 WITHOUT = {
     "default": {},
@@ -14,14 +15,20 @@ WITHOUT = {
     "with grey edges": {"edge_source": "grey"},
     "without the clear-sky term": {"clear_sky": 0.0},
     "without the terrain term": {"terrain_weight": 0.0},
-    "without either": {"clear_sky": 0.0, "terrain_weight": 0.0},
+    "without the sky model": {"sky_weight": 0.0},
+    "without all three": {"clear_sky": 0.0, "terrain_weight": 0.0, "sky_weight": 0.0},
     "with delta 1": {"delta": 1},
     "with delta 8": {"delta": 8},
 }
 
 
-def cross_validated(web: Path) -> str:
-    """Two folds: the published method, the default, and the default less each of its parts."""
+def cross_validated(web: Path, sky: SkyModel) -> str:
+    """Two folds: the published method, the default, and the default less each of its parts.
+
+    Args:
+        web: Folder of the Web photographs.
+        sky: A sky model that has not seen them.
+    """
     items = [item for item in open_dataset(web) if item.truth_path]
     paper = DetectorConfig.paper()
     steep = replace(paper, delta=4, link_weight=0.1)
@@ -30,7 +37,7 @@ def cross_validated(web: Path) -> str:
         configs[name] = replace(DetectorConfig(), **changes)
     rows, notes = [], ""
     for name, config in configs.items():
-        found = cross_validate(items, Detector(config=config), 2)
+        found = cross_validate(items, Detector(config=config, sky=sky), 2)
         assert not found.failures, found.failures
         (results,) = found.results.values()
         rows.append([name, *a_err_cells(Summary.of(results))])

@@ -20,6 +20,7 @@ from skyline_viz.evaluation.results import Summary
 from skyline_viz.evaluation.tables import untrained
 from skyline_viz.rendering import KINDS, render
 from skyline_viz.score import score_at
+from skyline_viz.sky_model import SkyModel
 from skyline_viz.tensor import tensor_at
 from skyline_viz.training import gather_item, solve, together
 
@@ -81,9 +82,14 @@ class _Edges:
         return float(below.mean()) / (2 * len(low))
 
 
-def studies(data: Path) -> str:
-    """Both studies: how filters are learned, and their size."""
-    return f"{_learning(data)}\n\n{_sizes(data / 'web_dataset')}"
+def studies(data: Path, sky: SkyModel) -> str:
+    """Both studies: how filters are learned, and their size.
+
+    Args:
+        data: Folder of the real data sets.
+        sky: A sky model that has not seen the Web photographs.
+    """
+    return f"{_learning(data)}\n\n{_sizes(data / 'web_dataset', sky)}"
 
 
 def _learning(data: Path) -> str:
@@ -128,12 +134,12 @@ def _sets(data: Path) -> dict[str, Sequence[Item]]:
     return {**sets, "rendered": [LoadedItem(one.name, one.photo, one.truth) for one in scenes]}
 
 
-def _sizes(web: Path) -> str:
+def _sizes(web: Path, sky: SkyModel) -> str:
     """The default with filters of several sizes, in two folds over the Web photographs."""
     items = [item for item in open_dataset(web) if item.truth_path]
     sizes = []
     for size in FILTER_SIZES[2:]:
-        found = cross_validate(items, Detector(untrained(size)), 2)
+        found = cross_validate(items, Detector(untrained(size), sky=sky), 2)
         assert not found.failures, found.failures
         (results,) = found.results.values()
         sizes.append([f"{size} x {size}", *a_err_cells(Summary.of(results))])

@@ -13,19 +13,26 @@ from benchmarks.table import markdown
 from skyline_viz import Detector, Skyline, open_dataset, train
 from skyline_viz.evaluation.metrics import column_errors
 from skyline_viz.photo import PHOTO_SUFFIXES, PhotoError, photo_size, write_photo
+from skyline_viz.sky_model import SkyModel
 from testing.labelling import asked, hills, served
 
 GOAL = 1.0  # A_err in pixels at which the robot stops
 MOST = 100  # clicks after which it gives up
 
 
-def clicks(web: Path) -> str:
-    """A robot clicks the worst column at the true row until A_err is at most 1 px, two folds."""
+def clicks(web: Path, sky: SkyModel) -> str:
+    """A robot clicks the worst column at the true row until A_err is at most 1 px, two folds.
+
+    Args:
+        web: Folder of the Web photographs.
+        sky: A sky model that has not seen them.
+    """
     data = [(item.photo(), item.truth()) for item in open_dataset(web) if item.truth_path]
     needed = {"A_err at most 1 px": [], "and no column off by more than 5 px": []}
     vertices = []
     for fold in range(2):
-        detector = Detector(train([one for at, one in enumerate(data) if at % 2 != fold]))
+        bank = train([one for at, one in enumerate(data) if at % 2 != fold])
+        detector = Detector(bank, sky=sky)
         for photo, truth in data[fold::2]:
             vertices.append(polyline_vertices(truth))
             for worst, counts in zip((np.inf, 5.0), needed.values(), strict=True):
@@ -78,9 +85,9 @@ def waiting(photos: dict[str, list[Path]]) -> str:
     return f"## What a person waits for, through the server on this machine\n\n{table}\n"
 
 
-def measured(web: Path | None, data: Path | None) -> str:
-    """Everything; the robot only where there are real photographs."""
-    parts = [clicks(web)] if web and web.is_dir() else []
+def measured(web: Path | None, data: Path | None, sky: SkyModel) -> str:
+    """Everything; the robot only where there are real photographs, which `sky` has not seen."""
+    parts = [clicks(web, sky)] if web and web.is_dir() else []
     with tempfile.TemporaryDirectory() as scratch:
         parts.append(waiting(_photos(Path(scratch), data)))
     return "\n".join(parts).rstrip()

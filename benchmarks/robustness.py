@@ -23,6 +23,7 @@ from skyline_viz import (
     train,
 )
 from skyline_viz.arrays import U8
+from skyline_viz.sky_model import SkyModel
 
 HEIGHT = 519
 Labelled = tuple[U8, Skyline]
@@ -105,15 +106,21 @@ PRESETS = {
 }
 
 
-def varied(web: Path) -> str:
-    """The published method, the same on steeper paths, and the default under every variation."""
+def varied(web: Path, sky: SkyModel) -> str:
+    """The published method, the same on steeper paths, and the default under every variation.
+
+    Args:
+        web: Folder of the Web photographs.
+        sky: A sky model that has not seen them.
+    """
     items = [item for item in open_dataset(web) if item.truth_path]
     examples = [(item.photo(), item.truth()) for item in items]
     rows = {name: [name] for name in VARIATIONS}
     for config in PRESETS.values():
         training = TrainingConfig.of(config)
         detectors = [
-            Detector(train(examples[1 - fold :: 2], config=training), config) for fold in (0, 1)
+            Detector(train(examples[1 - fold :: 2], config=training), config, sky=sky)
+            for fold in (0, 1)
         ]
         for name, vary in VARIATIONS.items():
             errors = []

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
+from skyline_viz.evaluation.intervals import Interval
 from skyline_viz.evaluation.results import Summary
 
 A_ERR_HEADER = (
@@ -34,3 +35,12 @@ def a_err_cells(summary: Summary) -> list[str]:
         f"{round(summary.under_5_px * count)}/{count}",
         str(summary.gross_misses),
     ]
+
+
+def percent(interval: Interval) -> str:
+    """An interval of a share, in percent.
+
+    >>> percent(Interval(0.912, 1.0))
+    '91 to 100'
+    """
+    return f"{100 * interval.low:.0f} to {100 * interval.high:.0f}"

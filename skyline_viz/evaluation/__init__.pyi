@@ -3,6 +3,9 @@ from .cross_validation import assign as assign
 from .cross_validation import cross_validate as cross_validate
 from .cross_validation import evaluate as evaluate
 from .evaluated import Evaluation as Evaluation
+from .intervals import Interval as Interval
+from .intervals import resampled as resampled
+from .intervals import wilson as wilson
 from .metrics import a_err as a_err
 from .metrics import column_errors as column_errors
 from .metrics import is_gross_miss as is_gross_miss

@@ -8,6 +8,7 @@ from html import escape
 from rich.console import Console, RenderableType
 from rich.table import Table
 
+from skyline_viz.evaluation.intervals import wilson
 from skyline_viz.evaluation.results import PhotoResult, Summary
 from skyline_viz.system.names import cell, shortened
 
@@ -101,9 +102,15 @@ def _figures(summary: Summary) -> list[tuple[str, str]]:
         ("A_err, median", f"{summary.median:.2f} px"),
         ("A_err, minimum", f"{summary.minimum:.2f} px"),
         ("A_err, maximum", f"{summary.maximum:.2f} px"),
-        ("photos under 4 px", f"{summary.under_4_px:.1%}"),
-        ("photos under 5 px", f"{summary.under_5_px:.1%}"),
+        ("photos under 4 px", _share(summary.under_4_px, summary.photos)),
+        ("photos under 5 px", _share(summary.under_5_px, summary.photos)),
         ("gross misses (over 5 % of the height)", f"{summary.gross_misses}"),
         ("segmentation accuracy", f"{summary.segmentation_accuracy:.2%}"),
         ("time of a detection, median", f"{summary.seconds:.3f} s"),
     ]
+
+
+def _share(share: float, photos: int) -> str:
+    """A share of photos, and how sure it is: other photos of the kind would give another one."""
+    low, high = wilson(round(share * photos), photos)
+    return f"{share:.1%} (95 % interval: {low:.0%} to {high:.0%})"
