@@ -13,9 +13,9 @@ from .datasets.layouts import DatasetError as DatasetError
 from .datasets.layouts import DatasetItem as DatasetItem
 from .datasets.layouts import open_dataset as open_dataset
 from .detection import Detection as Detection
+from .detection import FilterDetection as FilterDetection
 from .detection import solve_detection as solve_detection
 from .detector import Detector as Detector
-from .detector import FilterDetection as FilterDetection
 from .diagnosis.diagnosing import Diagnosis as Diagnosis
 from .diagnosis.diagnosing import diagnose as diagnose
 from .evaluation.cross_validation import cross_validate as cross_validate

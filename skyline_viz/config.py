@@ -55,6 +55,13 @@ class DetectorConfig:
     """Cost of calling the whole height of a photo sky where it surely looks like terrain, and
     gain where it surely looks like sky; 0 switches the term off."""
 
+    sky_weight: float = 5.0
+    """Cost of a line by which the whole height of a photo would be what the sky model finds
+    improbable, above and below it; 0 switches the model off."""
+
+    sky_cap: float = 1.5
+    """Cost that the sky model adds to a pixel at the most."""
+
     delta: int = 4
     """Largest change of row between neighbouring columns, in pixels."""
 
@@ -104,6 +111,7 @@ class DetectorConfig:
             non_edge_cost=3.0,
             clear_sky=0.0,
             terrain_weight=0.0,
+            sky_weight=0.0,
             delta=1,
             link_weight=0.0,
         )
@@ -173,6 +181,8 @@ RANGES: dict[str, tuple[float, float]] = {
     "non_edge_cost": (0, 1e6),
     "clear_sky": (0, 1e3),
     "terrain_weight": (0, 1e3),
+    "sky_weight": (0, 1e3),
+    "sky_cap": (0, 1e6),
     "delta": (0, 1e5),
     "link_weight": (0, 1e6),
 }

@@ -12,6 +12,7 @@ strength    edge pixels                  ``(1 - v) (1 - strength)``
 no edge     all other pixels             a constant
 clear sky   pixels below edges (ours)    for each edge above, see `terms.ClearSky`
 terrain     all pixels (ours)            for what looks like terrain above, see `terms.Terrain`
+sky         all pixels (ours)            for what the sky model finds improbable, see `terms.Sky`
 link        a line                       for each change of row, see `terms.Link`
 ==========  ===========================  ==========================================================
 """
@@ -37,9 +38,13 @@ from skyline_viz.terms import (
     Link,
     NoEdge,
     Places,
+    Sky,
     Term,
     Terrain,
 )
+
+UNKNOWN = np.full((1, 1), 0.5, np.float32)
+"""The map of a sky model that was not asked: one region, of which nothing is known."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -57,6 +62,9 @@ class Seen:
 
     scores: F32
     """``(n,)`` their scores, in [0, 1]."""
+
+    sky: F32 | None = None
+    """``(h, w)`` probability of sky of each region; None where no model was asked."""
 
     config: DetectorConfig
     """The settings, which hold the weights."""
@@ -128,7 +136,21 @@ def terrain(seen: Seen) -> Terrain:
     )
 
 
-TERMS: tuple[Callable[[Seen], Term], ...] = (score, strength, no_edge, clear_sky, terrain)
+def sky(seen: Seen) -> Sky:
+    """What pixels pay for what the sky model finds improbable."""
+    asked = seen.sky is not None and len(seen.scores)  # without an edge all is a guess
+    return Sky(
+        name="sky",
+        weight=seen.config.sky_weight if asked else 0.0,
+        setting="sky_weight",
+        colour="#D55E00",
+        edges=seen.edges,
+        sky=UNKNOWN if seen.sky is None else seen.sky,
+        cap=seen.config.sky_cap,
+    )
+
+
+TERMS: tuple[Callable[[Seen], Term], ...] = (score, strength, no_edge, clear_sky, terrain, sky)
 """The terms of our detector, in the order in which they are added up and shown."""
 
 

@@ -5,22 +5,41 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from time import perf_counter
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
+import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, read_only
+from skyline_viz.colours import bin_legend
 from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import CostModel
 from skyline_viz.edges import edge_pixels
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import shortest_path
 from skyline_viz.skyline import Skyline, SkylineError
-from skyline_viz.stage import COST, EDGES, PATH, SCORE, Quantity, Stage
+from skyline_viz.stage import (
+    BIN,
+    COHERENCE,
+    COST,
+    EDGES,
+    ORIENTATION,
+    PATH,
+    SCORE,
+    SKY,
+    STRENGTH,
+    Quantity,
+    Stage,
+)
+from skyline_viz.tensor import tensor_map
 from skyline_viz.terms import Link
 from skyline_viz.uncertainty import Uncertainty, uncertainty
+
+if TYPE_CHECKING:
+    from skyline_viz.detector import Detector
 
 _STEEPEST = 1 / 12  # change of row between neighbouring columns, as a share of the height
 
@@ -205,6 +224,90 @@ class Detection:
             non_edge_cost=1.0,
         )
         return replace(found, skyline=skyline)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class FilterDetection(Detection):
+    """What our detector found, and every stage that led to it."""
+
+    strength: F32
+    """``(n,)`` gradient strength, in grey levels a pixel."""
+
+    coherence: F32
+    """``(n,)`` coherence, in [0, 1]."""
+
+    orientation: F32
+    """``(n,)`` orientation of the gradient, in degrees, in [0, 180)."""
+
+    bins: Int
+    """``(n,)`` int32 bin, which is the index of the filter."""
+
+    sky: F32 | None
+    """``(h, w)`` probability of sky of each region of the photo, see `sky_model.SkyModel.sky`; None
+    where the sky model was switched off."""
+
+    thresholds: tuple[float, float]
+    """Canny thresholds that were used."""
+
+    config: DetectorConfig
+    """The configuration that was used."""
+
+    bank: FilterBank
+    """The filter bank that was used."""
+
+    detector: Detector
+    """What found it."""
+
+    @cached_property
+    def starved(self) -> Bool:
+        """``(n,)`` edge pixels in starved bins."""
+        starved: Bool = self.bank.starved[self.bins]
+        return starved
+
+    def _stages(self) -> Iterator[Stage]:
+        whole = cache(partial(tensor_map, self.photo))  # one for all three
+        if self.sky is not None:
+            yield Stage(SKY, self._sky_map, "photo")
+        yield Stage(EDGES, self.edges, "mask")
+        for quantity in (STRENGTH, COHERENCE, ORIENTATION):
+            name = quantity.name
+            yield Stage(
+                quantity,
+                getattr(self, name),
+                "edges",
+                dense=lambda name=name: getattr(whole(), name),  # type: ignore[misc]  # default
+            )
+        yield Stage(BIN, self.bins, "edges", legend=bin_legend(self.bank.bins))
+        yield Stage(SCORE, self.scores, "edges")
+        yield from self._last_stages()
+
+    @cached_property
+    def _sky_map(self) -> F32:
+        """``(H, W)`` probability of sky of each pixel, interpolated between centres of regions."""
+        assert self.sky is not None
+        height, width = self.edges.shape
+        whole = np.asarray(cv2.resize(self.sky, (width, height)), np.float32)
+        read_only(whole)
+        return whole
+
+    def again(self, config: DetectorConfig) -> FilterDetection:
+        """See `Detector.again`."""
+        return replace(self.detector, config=config, label="").again(self)
+
+    def about(self) -> list[str]:
+        """How it was made, in short sentences: settings, and where the filters are from."""
+        if self.config == DetectorConfig.paper():
+            settings = "the paper's settings"
+        else:
+            settings = ", ".join(self.config.changed()) or "default settings"
+        low, high = self.thresholds
+        made = self.bank.provenance
+        photos = f"{made.images} photos of {made.dataset}" if made.images else "an unknown source"
+        return [
+            f"{settings.capitalize()}.",
+            f"Canny thresholds {low:.0f} and {high:.0f}.",
+            f"Filters learned from {photos}.",
+        ]
 
 
 def solve_detection(

@@ -3,100 +3,35 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
-from functools import cache, cached_property, partial
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import F32, U8, Bool, Int, check_photo
-from skyline_viz.colours import bin_legend
+from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.cost import CostModel, Seen
 from skyline_viz.datasets.item import Item
-from skyline_viz.detection import Detection, timed
+from skyline_viz.detection import FilterDetection, timed
 from skyline_viz.edges import candidate_edges, edge_pixels, edge_settings, to_grey
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
 from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
+from skyline_viz.sky_model import NETWORK, SkyModel
 from skyline_viz.skyline import Skyline
-from skyline_viz.stage import BIN, COHERENCE, EDGES, ORIENTATION, SCORE, STRENGTH, Stage
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
-from skyline_viz.tensor import tensor_at, tensor_map
+from skyline_viz.tensor import Tensor, tensor_at
 from skyline_viz.training import GramMatrices, gather_item, solve, train
+
+STAGES = ("sky", "edges", "tensor", "bins", "score", "cost", "path")
+"""The stages whose seconds are told, in their order."""
 
 FILTERS = "filters"
 """What our detector is called as a method in the header of a file."""
-
-
-@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class FilterDetection(Detection):
-    """What our detector found, and every stage that led to it."""
-
-    strength: F32
-    """``(n,)`` gradient strength, in grey levels a pixel."""
-
-    coherence: F32
-    """``(n,)`` coherence, in [0, 1]."""
-
-    orientation: F32
-    """``(n,)`` orientation of the gradient, in degrees, in [0, 180)."""
-
-    bins: Int
-    """``(n,)`` int32 bin, which is the index of the filter."""
-
-    thresholds: tuple[float, float]
-    """Canny thresholds that were used."""
-
-    config: DetectorConfig
-    """The configuration that was used."""
-
-    bank: FilterBank
-    """The filter bank that was used."""
-
-    @cached_property
-    def starved(self) -> Bool:
-        """``(n,)`` edge pixels in starved bins."""
-        starved: Bool = self.bank.starved[self.bins]
-        return starved
-
-    def _stages(self) -> Iterator[Stage]:
-        whole = cache(partial(tensor_map, self.photo))  # one for all three
-        yield Stage(EDGES, self.edges, "mask")
-        for quantity in (STRENGTH, COHERENCE, ORIENTATION):
-            name = quantity.name
-            yield Stage(
-                quantity,
-                getattr(self, name),
-                "edges",
-                dense=lambda name=name: getattr(whole(), name),  # type: ignore[misc]  # default
-            )
-        yield Stage(BIN, self.bins, "edges", legend=bin_legend(self.bank.bins))
-        yield Stage(SCORE, self.scores, "edges")
-        yield from self._last_stages()
-
-    def again(self, config: DetectorConfig) -> FilterDetection:
-        """See `Detector.again`."""
-        return Detector(self.bank, config).again(self)
-
-    def about(self) -> list[str]:
-        """How it was made, in short sentences: settings, and where the filters are from."""
-        if self.config == DetectorConfig.paper():
-            settings = "the paper's settings"
-        else:
-            settings = ", ".join(self.config.changed()) or "default settings"
-        low, high = self.thresholds
-        made = self.bank.provenance
-        photos = f"{made.images} photos of {made.dataset}" if made.images else "an unknown source"
-        return [
-            f"{settings.capitalize()}.",
-            f"Canny thresholds {low:.0f} and {high:.0f}.",
-            f"Filters learned from {photos}.",
-        ]
 
 
 @dataclass(frozen=True)
@@ -119,10 +54,14 @@ class Detector:
     label: str = ""
     """What it is called; empty to be called after its configuration."""
 
+    sky: SkyModel = field(default_factory=SkyModel.small)
+    """The sky model, which runs unless `DetectorConfig.sky_weight` is 0; the small one unless
+    given."""
+
     @property
     def name(self) -> str:
         """Its label, or ``default``, ``paper`` or the nearer one and what differs from it."""
-        return self.label or self.config.name
+        return self.label or self.own_name()
 
     @property
     def learned_from(self) -> str:
@@ -189,24 +128,34 @@ class Detector:
         return replace(self, bank=other.bank)
 
     def settings(self) -> dict[str, object]:
-        """The configuration, by name."""
-        return asdict(self.config)
+        """The configuration by name, and the sky model."""
+        return {**asdict(self.config), "sky": self.sky.name}
 
     def kinds(self) -> dict[str, object]:
         """Type of each setting."""
-        return self.config.kinds()
+        return {**self.config.kinds(), "sky": str}
 
     def with_settings(self, values: Mapping[str, object]) -> Detector:
         """The same filters with other settings.
 
+        Args:
+            values: Fields of the configuration, and under ``sky`` a sky model as
+                `SkyModel.named` takes it.
+
         Raises:
             ValueError: One has a value that it refuses.
         """
-        return replace(self, config=self.config.with_settings(values))
+        others = dict(values)
+        named = others.pop("sky", self.sky.name)
+        sky = self.sky if named == self.sky.name else SkyModel.named(str(named))
+        return replace(self, config=self.config.with_settings(others), sky=sky)
 
     def own_name(self) -> str:
-        """What it is called without a label."""
-        return self.config.name
+        """What it is called without a label: its configuration, and a sky model of its own."""
+        name = self.config.name
+        if self.sky == SkyModel.small():
+            return name
+        return f"{name}{',' if ':' in name else ':'}{'sky'}={self.sky.name}"
 
     def labelled(self, label: str) -> Detector:
         """The same under another name."""
@@ -215,11 +164,11 @@ class Detector:
     def header(self) -> dict[str, Any]:
         """What its file says of it."""
         about = {"method": FILTERS, "label": self.label, "settings": self.config.described()}
-        return {**about, **self.bank.header()}
+        return {**about, **self.sky.header(), **self.bank.header()}
 
     def model_bytes(self) -> int:
-        """See `Configurable.model_bytes`: of its filters."""
-        return self.bank.filters.nbytes
+        """See `Configurable.model_bytes`: of its filters, and of the sky model if it runs."""
+        return self.bank.filters.nbytes + (len(self.sky.network) if self.config.sky_weight else 0)
 
     def require_told(self) -> None:
         """See `Configurable.require_told`.
@@ -232,10 +181,10 @@ class Detector:
 
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
         """The arrays of its file."""
-        return self.bank.arrays()
+        return {**self.bank.arrays(), **self.sky.arrays()}
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write one ``.npz`` file with bank, configuration and label, whole or not at all.
+        """Write one ``.npz`` file with all that it is made of, whole or not at all.
 
         Raises:
             SettingError: Its settings are of a class of somebody's.
@@ -249,7 +198,8 @@ class Detector:
         """Read what `save` wrote, or a filter bank; nothing is ever unpickled.
 
         A bank brings the settings for which it was trained. One of an earlier version knows of
-        them only whether Canny saw the grey photo; the others are the default ones then.
+        them only whether Canny saw the grey photo; the others are the default ones then. A detector
+        of a version that had no sky model does without one.
 
         Raises:
             FilterBankError: Missing, damaged, another kind of file, or of a newer version.
@@ -272,10 +222,13 @@ class Detector:
         told = isinstance(label, str) and isinstance(settings, dict)
         if header["method"] != FILTERS or not told:
             raise NpzError("its header names no detector")
-        if further := sorted(name for name in file.arrays if "__" in name):
+        others = {name for name in file.arrays if "__" in name} - {NETWORK}
+        if further := sorted(others):
             raise NpzError(f"it holds {further[0][:40]}, which this version does not know")
+        sky = SkyModel.read(file)
+        known = {**({} if sky else {"sky_weight": 0.0}), **dict(settings or {})}
         try:
-            return cls(bank, DetectorConfig(**dict(settings or {})), str(label))
+            return cls(bank, DetectorConfig(**known), str(label), sky or SkyModel.small())
         except (TypeError, ValueError) as error:
             reason = f": {error}" if isinstance(error, ValueError) else ""
             raise NpzError(f"its settings are none of a detector{reason}") from error
@@ -293,27 +246,67 @@ class Detector:
             ValueError: Another shape.
         """
         check_photo(photo)
-        photo = np.ascontiguousarray(photo)
+        return self._detect(np.ascontiguousarray(photo))
+
+    def again(self, found: FilterDetection) -> FilterDetection:
+        """Find the skyline of a detection's photo, as `detect` does.
+
+        The stages on which this detector and that of the detection agree are not computed anew:
+        their arrays are the very ones of the detection, and take no time.
+
+        Args:
+            found: What another detector, or this one, found.
+        """
+        return self._detect(found.photo, found)
+
+    def _detect(self, photo: U8, found: FilterDetection | None = None) -> FilterDetection:
+        """See `detect` and `again`."""
         config, bank = self.config, self.bank
-        seconds: dict[str, float] = {}
-        with timed(seconds, "edges"):
-            edges, thresholds = candidate_edges(photo, config)
-            rows, columns = edge_pixels(edges)
-        with timed(seconds, "tensor"):
-            tensor = tensor_at(photo, rows, columns)
-        with timed(seconds, "bins"):
-            bins = bank.bins.of(tensor)
-        with timed(seconds, "score"):
-            scores = score_at(to_grey(photo), rows, columns, bins, bank.filters)
-        with timed(seconds, "cost"):
-            model = self._costs(photo, edges, tensor.strength, scores)
-            cost = model.total()
+        seconds = dict.fromkeys(STAGES, 0.0)
+        sky = self._sky(photo, seconds, found)
+        if found and not (
+            bank.bins == found.bank.bins and edge_settings(config) == edge_settings(found.config)
+        ):
+            found = None
+        if found:
+            edges, thresholds = found.edges, found.thresholds
+            rows, columns, bins = found.edge_rows, found.edge_columns, found.bins
+            tensor = Tensor(found.strength, found.coherence, found.orientation)
+        else:
+            with timed(seconds, "edges"):
+                edges, thresholds = candidate_edges(photo, config)
+                rows, columns = edge_pixels(edges)
+            with timed(seconds, "tensor"):
+                tensor = tensor_at(photo, rows, columns)
+            with timed(seconds, "bins"):
+                bins = bank.bins.of(tensor)
+        if found and bank is found.bank:
+            scores = found.scores
+        else:
+            with timed(seconds, "score"):
+                scores = score_at(to_grey(photo), rows, columns, bins, bank.filters)
+        if found and scores is found.scores and sky is found.sky and _cost_alike(config, found):
+            model, cost = found.cost_model.searched(config), found.cost
+        else:
+            seen = Seen(
+                photo=photo,
+                sky=sky,
+                edges=edges,
+                strength=tensor.strength,
+                scores=scores,
+                config=config,
+                bank=bank,
+            )
+            with timed(seconds, "cost"):
+                model = CostModel.of(seen)
+                cost = model.total()
         with timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
         return FilterDetection(
             method=self.name,
             photo=photo,
             skyline=Skyline(rows=path.rows.astype(np.float32)),
+            sky=sky,
             edges=edges,
             edge_rows=rows,
             edge_columns=columns,
@@ -330,58 +323,22 @@ class Detector:
             cost_model=model,
             config=config,
             bank=bank,
+            detector=self,
         )
 
-    def _costs(self, photo: U8, edges: Bool, strength: F32, scores: F32) -> CostModel:
-        """What the stages before the cost have seen, as terms."""
-        seen = Seen(
-            photo=photo,
-            edges=edges,
-            strength=strength,
-            scores=scores,
-            config=self.config,
-            bank=self.bank,
-        )
-        return CostModel.of(seen)
+    def _sky(
+        self, photo: U8, seconds: dict[str, float], found: FilterDetection | None
+    ) -> F32 | None:
+        """The map of the sky model, that of a detection if it is the same; None if switched off."""
+        if not self.config.sky_weight:
+            return None
+        if found and found.sky is not None and found.detector.sky == self.sky:
+            return found.sky
+        with timed(seconds, "sky"):
+            return self.sky.sky(photo)
 
-    def again(self, found: FilterDetection) -> FilterDetection:
-        """Find the skyline of a detection's photo, as `detect` does.
 
-        The stages on which this detector and that of the detection agree are not computed anew:
-        their arrays are the very ones of the detection, and take no time.
-
-        Args:
-            found: What another detector, or this one, found.
-        """
-        config, bank = self.config, self.bank
-        bins_agree = bank.bins == found.bank.bins
-        if not bins_agree or edge_settings(config) != edge_settings(found.config):
-            return self.detect(found.photo)
-        seconds = dict.fromkeys(found.seconds, 0.0)
-        scores, cost = found.scores, found.cost
-        model = found.cost_model.searched(config)
-        if bank is not found.bank:
-            with timed(seconds, "score"):
-                grey = to_grey(found.photo)
-                rows, columns = found.edge_rows, found.edge_columns
-                scores = score_at(grey, rows, columns, found.bins, bank.filters)
-        alike = replace(config, delta=found.config.delta, link_weight=found.config.link_weight)
-        if bank is not found.bank or alike != found.config:
-            with timed(seconds, "cost"):
-                model = self._costs(found.photo, found.edges, found.strength, scores)
-                cost = model.total()
-        with timed(seconds, "path"):
-            path = shortest_path(cost, config.delta, config.link_weight)
-        return replace(
-            found,
-            method=self.name,
-            skyline=Skyline(rows=path.rows.astype(np.float32)),
-            scores=scores,
-            cost=cost,
-            path_cost=path.cost,
-            forward=path.forward,
-            seconds=seconds,
-            cost_model=model,
-            config=config,
-            bank=bank,
-        )
+def _cost_alike(config: DetectorConfig, found: FilterDetection) -> bool:
+    """Whether all settings are those of a detection, but for those of the path."""
+    theirs = found.config
+    return replace(config, delta=theirs.delta, link_weight=theirs.link_weight) == theirs

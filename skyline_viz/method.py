@@ -15,6 +15,7 @@ from skyline_viz.detection import Detection
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.headed_npz import Stored
 from skyline_viz.system.settings import Configured
+from skyline_viz.system.settings import MethodError as MethodError  # noqa: PLC0414 - known from here
 
 Model = Mapping[str, npt.NDArray[np.generic]]
 """What a method has learned: arrays by name, as they are written to a file."""
@@ -22,10 +23,6 @@ Model = Mapping[str, npt.NDArray[np.generic]]
 
 Sums = TypeVar("Sums")
 """What photos add up to, for methods that learn from sums."""
-
-
-class MethodError(ValueError):
-    """A method is unknown, has not been trained, or lacks a package; the message says which."""
 
 
 class UnnamedClassError(MethodError):

@@ -125,6 +125,7 @@ class Stage:
         return self.quantity.colour_map
 
 
+SKY = Quantity("sky", low=0.0, high=1.0, about="Sky: bright where the sky model sees it")
 EDGES = Quantity("edges", "gray", about="Edges")
 STRENGTH = Quantity(
     "strength",
@@ -165,7 +166,7 @@ COST = Quantity(
 PATH = Quantity("path", unit=" px", about="Path: row of the skyline", tabs=())
 DETOUR = Quantity("detour", "magma_r", " dearer than the path", (0.0, 0.88), 0.5, low=0.0)
 
-OURS = (EDGES, STRENGTH, COHERENCE, ORIENTATION, BIN, SCORE, COST)
+OURS = (SKY, EDGES, STRENGTH, COHERENCE, ORIENTATION, BIN, SCORE, COST)
 """The stages of our detector that can be laid over the photo, in their order."""
 
 

@@ -190,6 +190,30 @@ class Terrain(Term):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class Sky(Term):
+    r"""What a pixel pays for what the sky model finds improbable if the skyline runs there.
+
+    $$
+    R(i, j) = \frac{1}{H} \Big( \sum_{k < i} (1 - p(k, j)) + \sum_{k \ge i} p(k, j) \Big)
+    $$
+
+    is how much of the column, in heights of the photo, would be sky that looks like terrain or
+    terrain that looks like sky. A pixel pays for what that is above the least of its column, up to
+    a limit: so the model decides between ridges, and never outbids the only edge there is.
+    """
+
+    sky: F32
+    """``(h, w)`` probability of sky of each region, see `sky_model.SkyModel.sky`."""
+
+    cap: float
+    """What a pixel pays at the most."""
+
+    def add(self, cost: F32) -> None:
+        """See `Term.add`: exact inside regions, and interpolated between their columns."""
+        add_sky(cost, self.sky, self.weight, self.cap)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class GivenEdges(Term):
     """What edge pixels pay besides their score, where a method made its costs in its own way."""
 
@@ -268,6 +292,56 @@ def add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
     _add_blocks(cost.T, np.ascontiguousarray(blocks.T), np.float32(weight), side)
 
 
+def add_sky(cost: F32, sky: F32, weight: float, cap: float) -> None:
+    """Add what pixels pay for improbable sky and terrain to nodal costs, in place; see `Sky`.
+
+    Args:
+        cost: ``(H, W)``, columns together in memory as `cost.CostModel.total` gives it.
+        sky: ``(h, w)`` probability of sky of each region.
+        weight: Cost of a whole column that is improbable.
+        cap: What a pixel pays at the most.
+    """
+    regions = np.float64(len(sky))
+    share = sky.T.astype(np.float64)
+    borders = np.empty((share.shape[0], share.shape[1] + 1))  # R at the borders of the regions
+    borders[:, 0] = share.sum(axis=1)
+    borders[:, 1:] = borders[:, :1] + np.cumsum(1 - 2 * share, axis=1)
+    borders *= weight / regions
+    _add_sky(cost.T, borders.astype(np.float32), np.float32(cap))
+
+
+@numba.njit(cache=True, nogil=True)
+def _add_sky(cost: F32, borders: F32, cap: float) -> None:
+    """`add_sky` with the weighted sums at borders ``(w, h + 1)``, and costs ``(W, H)``.
+
+    A column is done while it is in the fastest cache: the line of its borders, its pixels and their
+    least one, and what they pay.
+    """
+    width, height = cost.shape
+    count = borders.shape[1] - 1
+    left, right, sideways = _between_centres(width, borders.shape[0], width / borders.shape[0])
+    region = np.empty(height, np.int32)
+    inside = np.empty(height, np.float32)
+    for row in range(height):
+        place = row * count / height  # a line at a row lies on the row's upper side
+        region[row] = int(place)
+        inside[row] = place - region[row]
+    line = np.empty(count + 1, np.float32)
+    pays = np.empty(height, np.float32)
+    for column in range(width):
+        here = borders[left[column]]
+        there = borders[right[column]]
+        for border in range(count + 1):
+            line[border] = here[border] + sideways[column] * (there[border] - here[border])
+        least = np.float32(np.inf)
+        for row in range(height):
+            above = line[region[row]]
+            pays[row] = above + inside[row] * (line[region[row] + 1] - above)
+            least = min(least, pays[row])
+        for row in range(height):
+            cost[column, row] += min(pays[row] - least, cap)
+
+
 @numba.njit(cache=True, nogil=True)
 def _add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
     """`add_blocks` with both arrays column by column, ``(W, H)`` and ``(w, h)``."""
@@ -286,7 +360,7 @@ def _add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
 
 
 @numba.njit(cache=True, nogil=True)
-def _between_centres(length: int, blocks: int, side: int) -> tuple[Int, Int, F32]:
+def _between_centres(length: int, blocks: int, side: float) -> tuple[Int, Int, F32]:
     """For each pixel of an axis the blocks before and after it, and how far it is on the way."""
     before = np.empty(length, np.int32)
     after = np.empty(length, np.int32)

@@ -30,6 +30,8 @@ configurations = st.builds(
     non_edge_cost=st.floats(0, 1e6),
     clear_sky=st.floats(0, 1e3),
     terrain_weight=st.floats(0, 1e3),
+    sky_weight=st.floats(0, 1e3),
+    sky_cap=st.floats(0, 1e6),
     delta=st.integers(0, 100_000),
     link_weight=st.floats(0, 1e6),
 )

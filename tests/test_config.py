@@ -22,6 +22,8 @@ RANGES = {
     "non_edge_cost": (0, 1e6),
     "clear_sky": (0, 1e3),
     "terrain_weight": (0, 1e3),
+    "sky_weight": (0, 1e3),
+    "sky_cap": (0, 1e6),
     "delta": (0, 100_000),
     "link_weight": (0, 1e6),
 }
@@ -35,6 +37,8 @@ def test_defaults_find_colour_edges_and_clear_skies():
     assert config.v == 0.5
     assert config.clear_sky > 0
     assert config.terrain_weight > 0
+    assert config.sky_weight > 0
+    assert 0 < config.sky_cap < config.non_edge_cost  # it never outbids the only edge there is
     assert config.delta > 1
     assert config.non_edge_cost > 1
 
@@ -51,6 +55,7 @@ def test_the_published_settings():
         non_edge_cost=3,
         clear_sky=0,
         terrain_weight=0,
+        sky_weight=0,
         delta=1,
         link_weight=0,
     )

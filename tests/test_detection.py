@@ -7,7 +7,7 @@ import pytest
 
 from skyline_viz.config import DetectorConfig
 from skyline_viz.detection import solve_detection
-from skyline_viz.detector import Detector
+from skyline_viz.detector import STAGES, Detector
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.score import score_at
 from skyline_viz.tensor import tensor_at
@@ -57,7 +57,7 @@ def test_every_field_has_its_shape_type_and_range(config):
 
 def test_every_stage_is_timed(detector):
     detection = detector.detect(mountains()[0])
-    assert list(detection.seconds) == ["edges", "tensor", "bins", "score", "cost", "path"]
+    assert list(detection.seconds) == list(STAGES)
     assert all(seconds >= 0 for seconds in detection.seconds.values())
     assert detection.total_seconds == pytest.approx(sum(detection.seconds.values()))
 

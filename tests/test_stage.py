@@ -45,7 +45,7 @@ def test_stages_cannot_be_changed():
 
 
 def test_our_stages_are_those_of_the_method_in_order():
-    names = ["edges", "strength", "coherence", "orientation", "bin", "score", "cost", "path"]
+    names = ["sky", "edges", "strength", "coherence", "orientation", "bin", "score", "cost", "path"]
     assert list(FOUND["ours"].stages) == names
 
 

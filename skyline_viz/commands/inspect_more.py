@@ -12,8 +12,7 @@ from skyline_viz.running.progress import ProgressBar
 if TYPE_CHECKING:
     import rerun as rr
 
-    from skyline_viz.detection import Detection
-    from skyline_viz.detector import FilterDetection
+    from skyline_viz.detection import Detection, FilterDetection
     from skyline_viz.diagnosis.diagnosing import Diagnosis
     from skyline_viz.diagnosis.sweep import Sweep
     from skyline_viz.filter_bank import FilterBank

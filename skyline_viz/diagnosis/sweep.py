@@ -11,7 +11,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from skyline_viz.config import RANGES, DetectorConfig
-from skyline_viz.detector import Detector, FilterDetection
+from skyline_viz.detection import FilterDetection
+from skyline_viz.detector import Detector
 from skyline_viz.edges import LOWEST_FACTOR
 from skyline_viz.filter_bank import FilterBank
 

@@ -33,7 +33,6 @@ from skyline_viz.datasets.item import Item
 from skyline_viz.edges import to_grey
 from skyline_viz.method import MethodError, Model, shown_to_learners
 from skyline_viz.methods.extras import needed
-from skyline_viz.methods.network_trial import try_network
 from skyline_viz.methods.score_images import (
     BEFORE,
     PATCH,
@@ -44,6 +43,7 @@ from skyline_viz.methods.score_images import (
     normalised_parts,
     patches,
 )
+from skyline_viz.networks.trial import try_network
 from skyline_viz.system.settings import Presets
 
 CHANNELS = (8, 16, 32)

@@ -24,9 +24,17 @@ from skyline_viz.datasets.item import Item
 from skyline_viz.detection import Detection, timed
 from skyline_viz.method import LearnedMethod, MethodError, Model, shown_to_learners
 from skyline_viz.methods.extras import needed
-from skyline_viz.methods.onnx_files import HoldsNetwork, Network, normalised, padded
 from skyline_viz.methods.sky_boundary import detect_boundary
-from skyline_viz.methods.sky_network import MEAN, STD, enlarged, sigmoid
+from skyline_viz.methods.sky_network import enlarged
+from skyline_viz.networks.onnx_files import (
+    MEAN,
+    STD,
+    HoldsNetwork,
+    Network,
+    normalised,
+    padded,
+    sigmoid,
+)
 from skyline_viz.system.settings import Presets, within
 
 Architecture: TypeAlias = Literal["fcn-8s", "fcn-16s", "fcn-32s", "segnet"]

@@ -20,10 +20,9 @@ import torch
 from torch.nn import functional as fn
 
 from skyline_viz.arrays import F32, U8
-from skyline_viz.methods.onnx_files import normalised
 from skyline_viz.methods.parsing import Architecture
 from skyline_viz.methods.parsing_nets import SceneNet, build, load_backbone
-from skyline_viz.methods.sky_network import MEAN, STD
+from skyline_viz.networks.onnx_files import MEAN, STD, normalised
 from skyline_viz.skyline import Skyline
 
 BATCH = 4

@@ -25,15 +25,18 @@ import numpy as np
 from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.detection import Detection, timed
 from skyline_viz.method import MethodError
-from skyline_viz.methods.onnx_files import HoldsNetwork, Network, normalised, padded, read_network
 from skyline_viz.methods.sky_boundary import detect_boundary
+from skyline_viz.networks.onnx_files import (
+    MEAN,
+    STD,
+    HoldsNetwork,
+    Network,
+    normalised,
+    padded,
+    read_network,
+    sigmoid,
+)
 from skyline_viz.system.settings import Configured, name_with, within
-
-MEAN = (0.485, 0.456, 0.406)
-"""Mean of ImageNet's photos, red, green and blue, in [0, 1]."""
-
-STD = (0.229, 0.224, 0.225)
-"""Their standard deviation."""
 
 
 @dataclass(frozen=True)
@@ -179,8 +182,3 @@ def enlarged(sky: F32, shape: tuple[int, ...], matrix: np.ndarray[Any, Any] | No
     flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
     whole = cv2.warpAffine(sky, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE)
     return np.asarray(whole, np.float32)
-
-
-def sigmoid(logits: F32) -> F32:
-    """Probabilities of logits."""
-    return np.asarray(1 / (1 + np.exp(-np.clip(logits, -30, 30))), np.float32)

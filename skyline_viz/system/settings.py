@@ -37,6 +37,10 @@ class SettingError(ValueError):
     """A setting is unknown, or has a value that it cannot have; the message says what it takes."""
 
 
+class MethodError(ValueError):
+    """A method is unknown, has not been trained, or lacks what it needs; the message says what."""
+
+
 def within(default: Value, low: float, high: float = MOST) -> Value:
     """A field of a dataclass whose numbers go from `low` to `high`, both included."""
     made: Value = field(default=default, metadata={"range": (low, high)})

@@ -10,7 +10,7 @@ import rerun as rr
 
 from skyline_viz.arrays import U8, Int
 from skyline_viz.colours import PATH
-from skyline_viz.detector import FilterDetection
+from skyline_viz.detection import FilterDetection
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_pictures import BankPictures, cell_box, draw_bank

@@ -48,9 +48,9 @@ def test_from_photos_to_a_diagnosis(method, one_thread):
 @needs_deep
 @pytest.mark.parametrize("method", METHODS)
 def test_opencv_computes_what_pytorch_does(method, one_thread):
-    from skyline_viz.methods.onnx_files import Network  # noqa: PLC0415
     from skyline_viz.methods.parsing_nets import build  # noqa: PLC0415
     from skyline_viz.methods.parsing_training import export  # noqa: PLC0415
+    from skyline_viz.networks.onnx_files import Network  # noqa: PLC0415
 
     torch = one_thread
     for normalised in (True, False):

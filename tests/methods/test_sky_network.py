@@ -8,9 +8,9 @@ import pytest
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.method import MethodError
-from skyline_viz.methods.onnx_files import read_header
 from skyline_viz.methods.sky_boundary import MAP
 from skyline_viz.methods.sky_network import SkyNetwork
+from skyline_viz.networks.onnx_files import read_header
 from skyline_viz.skyline import Skyline
 from testing.deep import needs_deep
 

@@ -5,14 +5,14 @@ import sys
 
 import pytest
 
-from skyline_viz.methods import network_child
-from skyline_viz.methods.network_child import MEMORY
+from skyline_viz.networks import child
+from skyline_viz.networks.child import MEMORY
 from testing.deep import needs_deep
 from testing.harm import small_network
 
 
 def tried(content, memory=8 << 30, shape=(1, 3, 32, 32)):
-    words = [sys.executable, "-P", network_child.__file__, str(memory), "60", *map(str, shape)]
+    words = [sys.executable, "-P", child.__file__, str(memory), "60", "0", *map(str, shape)]
     return subprocess.run(words, input=content, capture_output=True, timeout=300, check=False)
 
 

@@ -1,7 +1,7 @@
 """Whether a network may be opened here: it is tried in a process of its own first.
 
 A file that is made to, or damaged by chance, makes OpenCV crash, run for ever, or take all memory,
-and takes along whatever program reads it. So each network runs once in `network_child`, which may
+and takes along whatever program reads it. So each network runs once in `child`, which may
 do all of that. What it survived is remembered by content for as long as this process lives, and
 goes to workers with the methods that use it.
 """
@@ -13,9 +13,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from skyline_viz.method import MethodError
-from skyline_viz.methods.network_child import MEMORY
+from skyline_viz.networks.child import MEMORY
 from skyline_viz.system.aftermath import ended, started
+from skyline_viz.system.settings import MethodError
 
 SECONDS = 120
 """Processor time that opening and one run may take."""
@@ -23,29 +23,35 @@ SECONDS = 120
 _WALL_SECONDS = 600.0  # that it may take on a machine that is busy
 _MEMORY = 4 << 30  # bytes besides those of the file, eight times: weights are copied and reordered
 _SIGKILL, _SIGXCPU = 9, 24
-_CHILD = Path(__file__).with_name("network_child.py")
+_CHILD = Path(__file__).with_name("child.py")
 
 _survived: set[str] = set()
 
 
-def try_network(data: bytes, shape: tuple[int, ...], name: str) -> str:
+def digest_of(data: bytes, *, classic: bool = False) -> str:
+    """What the content of a network's file, and which engine runs it, is remembered by."""
+    return hashlib.sha256(data).hexdigest() + (" classic" if classic else "")
+
+
+def try_network(data: bytes, shape: tuple[int, ...], name: str, *, classic: bool = False) -> str:
     """Try a network, unless one of the same content has been tried.
 
     Args:
         data: The content of its file.
         shape: An input that it takes.
         name: What to call it in messages.
+        classic: Whether OpenCV's classic engine will run it, see `child.opened`.
 
     Returns:
-        The digest of its content, for `remember`.
+        Its digest, for `remember`.
 
     Raises:
         MethodError: It crashed, did not come to an end, or took too much memory.
     """
-    digest = hashlib.sha256(data).hexdigest()
+    digest = digest_of(data, classic=classic)
     if digest in _survived:
         return digest
-    limits = [_MEMORY + 8 * len(data), SECONDS, *shape]
+    limits = [_MEMORY + 8 * len(data), SECONDS, int(classic), *shape]
     process = started(
         [sys.executable, "-P", _CHILD, *map(str, limits)],
         stdin=subprocess.PIPE,
@@ -70,5 +76,5 @@ def try_network(data: bytes, shape: tuple[int, ...], name: str) -> str:
 
 
 def remember(digest: str) -> None:
-    """Take it for granted that a network of this content was survived."""
+    """Take it for granted that the network of this digest was survived."""
     _survived.add(digest)

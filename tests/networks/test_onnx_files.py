@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.method import MethodError
-from skyline_viz.methods import onnx_files
-from skyline_viz.methods.onnx_files import (
+from skyline_viz.networks import onnx_files
+from skyline_viz.networks.onnx_files import (
     HoldsNetwork,
     Network,
     normalised,

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from skyline_viz.method import MethodError
-from skyline_viz.methods import network_trial
-from skyline_viz.methods.onnx_files import HoldsNetwork, Network, read_network
 from skyline_viz.methods.sky_network import SkyNetwork
+from skyline_viz.networks import trial
+from skyline_viz.networks.onnx_files import HoldsNetwork, Network, read_network
 from testing.deep import needs_deep
 from testing.harm import harmed, small_network
 
@@ -27,14 +27,14 @@ DEATHS = {
 @pytest.fixture
 def fresh(monkeypatch):
     """Nothing has been tried yet."""
-    monkeypatch.setattr(network_trial, "_survived", set())
+    monkeypatch.setattr(trial, "_survived", set())
 
 
 @pytest.mark.parametrize("death", DEATHS)
 def test_what_the_child_dies_of_is_one_sentence(death, fresh, tmp_path, monkeypatch):
     child = tmp_path / "child.py"
     child.write_text(f"import os, signal, sys\nsys.stdin.buffer.read()\n{death}\n")
-    monkeypatch.setattr(network_trial, "_CHILD", child)
+    monkeypatch.setattr(trial, "_CHILD", child)
     with pytest.raises(MethodError, match=DEATHS[death]) as caught:
         Network(small_network(), "sky.onnx")
     assert str(caught.value).startswith("sky.onnx ")
@@ -43,16 +43,16 @@ def test_what_the_child_dies_of_is_one_sentence(death, fresh, tmp_path, monkeypa
 def test_one_that_waits_for_ever_is_stopped(fresh, tmp_path, monkeypatch):
     child = tmp_path / "child.py"
     child.write_text("import sys, threading\nsys.stdin.buffer.read()\nthreading.Event().wait()\n")
-    monkeypatch.setattr(network_trial, "_CHILD", child)
-    monkeypatch.setattr(network_trial, "_WALL_SECONDS", 0.5)
+    monkeypatch.setattr(trial, "_CHILD", child)
+    monkeypatch.setattr(trial, "_WALL_SECONDS", 0.5)
     with pytest.raises(MethodError, match="does not come to an end"):
         Network(small_network(), "sky.onnx")
 
 
 def test_the_real_child_stops_what_takes_all_memory(fresh, monkeypatch):
-    monkeypatch.setattr(network_trial, "_MEMORY", 600 << 20)
+    monkeypatch.setattr(trial, "_MEMORY", 600 << 20)
     with pytest.raises(MethodError, match=r"wants more than 0 GB|crashes OpenCV"):
-        network_trial.try_network(small_network(), (1, 3, 20_000, 20_000), "sky.onnx")
+        trial.try_network(small_network(), (1, 3, 20_000, 20_000), "sky.onnx")
 
 
 def test_a_network_is_tried_once_and_workers_know(fresh, tmp_path, monkeypatch):
@@ -60,11 +60,11 @@ def test_a_network_is_tried_once_and_workers_know(fresh, tmp_path, monkeypatch):
     file.write_bytes(small_network())
     method = SkyNetwork(file)
     method.check()
-    assert len(network_trial._survived) == 1
+    assert len(trial._survived) == 1
     sent = pickle.dumps(method)
-    network_trial._survived.clear()
+    trial._survived.clear()
     again = pickle.loads(sent)
-    monkeypatch.setattr(network_trial, "started", None)  # it would fail
+    monkeypatch.setattr(trial, "started", None)  # it would fail
     again.check()
     assert again == method
     assert issubclass(SkyNetwork, HoldsNetwork)

@@ -17,11 +17,18 @@ import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, U8
-from skyline_viz.method import MethodError
-from skyline_viz.methods.network_trial import remember, try_network
+from skyline_viz.networks.child import opened
+from skyline_viz.networks.trial import remember, try_network
+from skyline_viz.system.settings import MethodError
 
 MOST_BYTES = 1 << 31
 """Bytes that a network's file may have: no protocol buffer is larger."""
+
+MEAN = (0.485, 0.456, 0.406)
+"""Mean of ImageNet's photos, red, green and blue, in [0, 1]."""
+
+STD = (0.229, 0.224, 0.225)
+"""Their standard deviation."""
 
 _USUAL = 256  # rows and columns to try a network with
 _LARGEST_INPUT = 3 * 150_000_000  # numbers of an input: the largest photo, in three colours
@@ -113,12 +120,13 @@ class HoldsNetwork:
 class Network:
     """A network that is ready to run."""
 
-    def __init__(self, data: bytes, name: str) -> None:
+    def __init__(self, data: bytes, name: str, *, classic: bool = False) -> None:
         """Read an ONNX file.
 
         Args:
             data: Its content.
             name: What to call it in messages.
+            classic: Whether OpenCV's classic engine runs it, see `child.opened`.
 
         Raises:
             MethodError: It is no ONNX file, OpenCV cannot run such a network, or dies of it.
@@ -130,10 +138,10 @@ class Network:
             raise MethodError(f"{name} is not an ONNX file.") from None
         if not self.header.inputs or not self.header.outputs:
             raise MethodError(f"{name} takes nothing, or gives nothing.")
-        self.digest = try_network(data, self._some_input(), name)
-        """Of its content."""
+        self.digest = try_network(data, self._some_input(), name, classic=classic)
+        """Of its content and engine."""
         with self._explained("cannot be read by OpenCV"):
-            self._net = cv2.dnn.readNetFromONNX(np.frombuffer(data, np.uint8))
+            self._net = opened(data, classic=classic)
 
     def run(self, blob: F32) -> np.ndarray[Any, np.dtype[Any]]:
         """The first output for an input ``(1, ...)``.
@@ -176,6 +184,11 @@ def normalised(photo: U8, mean: tuple[float, ...], std: tuple[float, ...]) -> F3
     """Input ``(1, 3, H, W)`` of a photo ``(H, W, 3)`` uint8: in [0, 1], less mean, over std."""
     values = (photo / np.float32(255) - np.array(mean)) / np.array(std)
     return np.ascontiguousarray(values.transpose(2, 0, 1)[None], np.float32)
+
+
+def sigmoid(logits: F32) -> F32:
+    """Probabilities of logits."""
+    return np.asarray(1 / (1 + np.exp(-np.clip(logits, -30, 30))), np.float32)
 
 
 def padded(photo: U8, multiple: int = 32) -> U8:
