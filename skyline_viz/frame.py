@@ -18,10 +18,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
+import cv2
 import numba
 import numpy as np
 
-from skyline_viz.arrays import I16, U8
+from skyline_viz.arrays import I16, U8, Bool
 
 Side: TypeAlias = Literal["left", "right", "top", "bottom"]
 """A rim of a picture."""
@@ -93,6 +94,12 @@ class Frame:
         height, width = photo.shape[:2]
         return slice(self.top, height - self.bottom), slice(self.left, width - self.right)
 
+    def shows(self, width: int) -> Bool:
+        """Columns of a photo in which there is picture, ``(W,)``: no line is visible in others."""
+        shows = np.zeros(width, np.bool_)
+        shows[self.left : width - self.right] = True
+        return shows
+
     def widened(self, side: Side, pixels: int) -> Frame:
         """The frame, so many pixels wider at one side."""
         return replace(self, **{side: getattr(self, side) + pixels})
@@ -135,6 +142,16 @@ def find_frame(photo: U8, thin: int = 4) -> Frame:
             break
         frame = wider
     return frame
+
+
+def without_frame(photo: U8, frame: Frame) -> U8:
+    """A photo whose frame is painted over with the rim of the picture; itself without a frame."""
+    if frame == Frame():
+        return photo
+    inside = photo[frame.inside(photo)]
+    borders = (frame.top, frame.bottom, frame.left, frame.right)
+    painted: U8 = cv2.copyMakeBorder(inside, *borders, cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
+    return painted
 
 
 @dataclass(frozen=True)
