@@ -19,7 +19,7 @@ from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import CostModel
 from skyline_viz.edges import edge_pixels
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.frame import Frame
+from skyline_viz.frames.frame import Frame
 from skyline_viz.path import shortest_path
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage import (

@@ -18,7 +18,7 @@ from skyline_viz.detection import FilterDetection, timed
 from skyline_viz.edges import candidate_edges, edge_pixels, edge_settings, frame_of, to_grey
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
-from skyline_viz.frame import Frame, without_frame
+from skyline_viz.frames.frame import Frame, without_frame
 from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
 from skyline_viz.sky_model import NETWORK, SkyModel
@@ -339,9 +339,9 @@ class Detector:
         """The map of the sky model, that of a detection if it is the same; None if switched off."""
         if not self.config.sky_weight:
             return None
-        if found and found.frame == frame and found.detector.sky == self.sky:
-            if found.sky is not None:
-                return found.sky
+        same = found and found.frame == frame and found.detector.sky == self.sky
+        if found and same and found.sky is not None:
+            return found.sky
         with timed(seconds, "sky"):
             return self.sky.sky(without_frame(photo, frame))
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from skyline_viz.arrays import I16, U8, Bool, Int
 from skyline_viz.config import DetectorConfig, EdgeSource
-from skyline_viz.frame import Frame, find_frame
+from skyline_viz.frames.finding import find_frame
+from skyline_viz.frames.frame import Frame
 
 STRONG_PERCENTILE = 95
 """Percentile of a photo's gradients that stands for its strong ones."""

@@ -15,23 +15,13 @@ then: a frame leaves something inside that could be one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from dataclasses import dataclass
 
-import cv2
-import numba
 import numpy as np
 
-from skyline_viz.arrays import I16, U8, Bool
-
-Side: TypeAlias = Literal["left", "right", "top", "bottom"]
-"""A rim of a picture."""
-
-SIDES: tuple[Side, ...] = ("left", "right", "top", "bottom")
-"""All of them."""
-
-ACROSS: dict[Side, Side] = {"left": "right", "right": "left", "top": "bottom", "bottom": "top"}
-"""The rim across."""
+from skyline_viz.arrays import I16, U8
+from skyline_viz.frames.frame import ACROSS, SIDES, Frame, Side
+from skyline_viz.frames.lines import away, colour_of, constant, differ, lighter
 
 TOLERANCE = 24
 """Grey levels by which a bar may differ from its colour, as compression leaves it."""
@@ -67,42 +57,6 @@ SMALLEST = 8
 _SAMPLES = 48  # pixels that are looked at along a rim, to find where a bar ends
 _FINE = 384  # and to measure its step
 _ROUNDS = 4  # borders within borders
-
-
-@dataclass(frozen=True)
-class Frame:
-    """How wide the frame around a picture is, in pixels.
-
-    Examples:
-        >>> photo = np.full((40, 60, 3), 200, np.uint8)
-        >>> photo[25:] = 60
-        >>> photo[:, :9] = 0
-        >>> frame = find_frame(photo)
-        >>> frame
-        Frame(left=9, right=0, top=0, bottom=0)
-        >>> photo[frame.inside(photo)].shape
-        (40, 51, 3)
-    """
-
-    left: int = 0
-    right: int = 0
-    top: int = 0
-    bottom: int = 0
-
-    def inside(self, photo: U8) -> tuple[slice, slice]:
-        """Rows and columns of the picture in its photo ``(H, W, ...)``."""
-        height, width = photo.shape[:2]
-        return slice(self.top, height - self.bottom), slice(self.left, width - self.right)
-
-    def shows(self, width: int) -> Bool:
-        """Columns of a photo in which there is picture, ``(W,)``: no line is visible in others."""
-        shows = np.zeros(width, np.bool_)
-        shows[self.left : width - self.right] = True
-        return shows
-
-    def widened(self, side: Side, pixels: int) -> Frame:
-        """The frame, so many pixels wider at one side."""
-        return replace(self, **{side: getattr(self, side) + pixels})
 
 
 @dataclass(frozen=True)
@@ -144,16 +98,6 @@ def find_frame(photo: U8, thin: int = 4) -> Frame:
     return frame
 
 
-def without_frame(photo: U8, frame: Frame) -> U8:
-    """A photo whose frame is painted over with the rim of the picture; itself without a frame."""
-    if frame == Frame():
-        return photo
-    inside = photo[frame.inside(photo)]
-    borders = (frame.top, frame.bottom, frame.left, frame.right)
-    painted: U8 = cv2.copyMakeBorder(inside, *borders, cv2.BORDER_REPLICATE)  # type: ignore[call-overload]
-    return painted
-
-
 @dataclass(frozen=True)
 class _Picture:
     """A photo inside a frame."""
@@ -182,18 +126,20 @@ class _Picture:
                 bars[side] = bar
         frame = self.frame
         for side, bar in bars.items():
-            frame = frame.widened(side, bar.width)
+            across = bars.get(ACROSS[side])
+            if bar.width + (across.width if across else 0) <= self.room(side):
+                frame = frame.widened(side, bar.width)
         return frame
 
     def bar(self, side: Side) -> _Bar | None:
         """What looks like a bar at a side: one colour, and a straight step at its end."""
         turned, room = self.from_side(side), self.room(side)
         every = max(turned.shape[1] // _SAMPLES, 1)
-        colour = _colour(turned[0], every)
-        if room <= 0 or _away(turned[0], every, colour, TOLERANCE) > STRAY:
+        colour = colour_of(turned[0], every)
+        if room <= 0 or away(turned[0], every, colour, TOLERANCE) > STRAY:
             return None
         needed = SOME if side in ("left", "right") else MOST
-        width, stray = _constant(turned[: room + 1], every, colour, needed)
+        width, stray = constant(turned[: room + 1], every, colour, TOLERANCE, needed)
         return self.measured(side, width, colour, needed) if stray <= TEXT else None
 
     def measured(self, side: Side, width: int, colour: I16, needed: float) -> _Bar | None:
@@ -203,8 +149,8 @@ class _Picture:
             return None
         every = max(turned.shape[1] // _FINE, 1)
         last, first = turned[max(width - BLUR, 0)], turned[min(width + BLUR, len(turned)) - 1]
-        share = _differ(last, first, every, STEP)
-        straight = _away(last, every, colour, TOLERANCE) <= STRAY
+        share = differ(last, first, every, STEP)
+        straight = away(last, every, colour, TOLERANCE) <= STRAY
         return _Bar(width, colour, share) if straight and share > needed else None
 
     def is_bar(self, side: Side, bars: dict[Side, _Bar | None]) -> bool:
@@ -238,7 +184,7 @@ class _Picture:
         turned = self.from_side(side)
         every = max(turned.shape[1] // _FINE, 1)
         for width in range(min(thin, len(turned) // 4), 0, -1):
-            if abs(_lighter(turned[width - 1], turned[width], every, STEP)) > MOST:
+            if abs(lighter(turned[width - 1], turned[width], every, STEP)) > MOST:
                 return width
         return 0
 
@@ -248,77 +194,3 @@ class _Picture:
         columns = inside[BLUR:-BLUR, :: max(inside.shape[1] // _SAMPLES, 1)].astype(np.int16)
         change = np.abs(columns[2:] - columns[:-2]).max(axis=2)
         return bool((change.max(axis=0, initial=0) > TOLERANCE).mean() > MOST)
-
-
-@numba.njit(cache=True, nogil=True)
-def _colour(line: U8, every: int) -> I16:
-    """Mean colour ``(3,)`` of every so many pixels of a line ``(n, 3)``."""
-    colour = np.empty(3, np.int16)
-    for channel in range(3):
-        total = 0
-        count = 0
-        for place in range(0, len(line), every):
-            total += line[place, channel]
-            count += 1
-        colour[channel] = total // count
-    return colour
-
-
-@numba.njit(cache=True, nogil=True)
-def _away(line: U8, every: int, colour: I16, limit: int) -> float:
-    """Share of every so many pixels of a line ``(n, 3)`` that differ from a colour."""
-    away = 0
-    count = 0
-    for place in range(0, len(line), every):
-        change = 0
-        for channel in range(3):
-            change = max(change, abs(np.int32(line[place, channel]) - colour[channel]))
-        away += change > limit
-        count += 1
-    return away / count
-
-
-@numba.njit(cache=True, nogil=True)
-def _constant(lines: U8, every: int, colour: I16, most: float) -> tuple[int, float]:
-    """How many lines ``(k, n, 3)`` have one colour, and the share of other colours in them.
-
-    They end before the first line with more than a share of pixels of other colours.
-    """
-    stray = 0.0
-    for width in range(len(lines)):
-        away = _away(lines[width], every, colour, TOLERANCE)
-        if away > most:
-            return width, stray / max(width, 1)
-        stray += away
-    return len(lines), stray / len(lines)
-
-
-@numba.njit(cache=True, nogil=True)
-def _differ(line: U8, other: U8, every: int, limit: int) -> float:
-    """Share of every so many pixels in which two lines ``(n, 3)`` differ."""
-    differ = 0
-    count = 0
-    for place in range(0, len(line), every):
-        change = 0
-        for channel in range(3):
-            change = max(change, abs(np.int32(line[place, channel]) - other[place, channel]))
-        differ += change > limit
-        count += 1
-    return differ / count
-
-
-@numba.njit(cache=True, nogil=True)
-def _lighter(line: U8, other: U8, every: int, limit: int) -> float:
-    """Share of pixels that are lighter in the other line ``(n, 3)``, less those that are darker."""
-    balance = 0
-    count = 0
-    for place in range(0, len(line), every):
-        up = 0
-        down = 0
-        for channel in range(3):
-            change = np.int32(other[place, channel]) - line[place, channel]
-            up = max(up, change)
-            down = min(down, change)
-        balance += (up > limit) - (down < -limit)
-        count += 1
-    return balance / count
