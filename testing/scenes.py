@@ -1,4 +1,4 @@
-"""Drawn scenes of which the skyline is known to the pixel: two tones, and what is laid over them."""
+"""Drawn scenes of which the skyline is known to the pixel: two tones, and what lies over them."""
 
 import cv2
 import numpy as np

@@ -1,4 +1,4 @@
-"""Frames are found at any width and on any side, and no sky, snow or dark ground is taken for one."""
+"""Frames are found at any width, on any side; sky, snow and dark ground are none."""
 
 import numpy as np
 import pytest
