@@ -19,6 +19,7 @@ from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import CostModel
 from skyline_viz.edges import edge_pixels
 from skyline_viz.filter_bank import FilterBank
+from skyline_viz.frames.frame import Frame
 from skyline_viz.path import shortest_path
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage import (
@@ -241,6 +242,9 @@ class FilterDetection(Detection):
 
     bins: Int
     """``(n,)`` int32 bin, which is the index of the filter."""
+
+    frame: Frame
+    """The frame around the picture; columns in it are not visible."""
 
     sky: F32 | None
     """``(h, w)`` probability of sky of each region of the photo, see `sky_model.SkyModel.sky`; None

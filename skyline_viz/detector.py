@@ -15,9 +15,10 @@ from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.cost import CostModel, Seen
 from skyline_viz.datasets.item import Item
 from skyline_viz.detection import FilterDetection, timed
-from skyline_viz.edges import candidate_edges, edge_pixels, edge_settings, to_grey
+from skyline_viz.edges import candidate_edges, edge_pixels, edge_settings, frame_of, to_grey
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
+from skyline_viz.frames.frame import Frame, without_frame
 from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
 from skyline_viz.sky_model import NETWORK, SkyModel
@@ -270,7 +271,12 @@ class Detector:
         """See `detect` and `again`."""
         config, bank = self.config, self.bank
         seconds = dict.fromkeys(STAGES if config.sky_weight else STAGES[1:], 0.0)
-        sky = self._sky(photo, seconds, found)
+        if found and found.config.frame == config.frame:
+            frame = found.frame
+        else:
+            with timed(seconds, "edges"):
+                frame = frame_of(photo, config)
+        sky = self._sky(photo, frame, seconds, found)
         if found and not (
             bank.bins == found.bank.bins and edge_settings(config) == edge_settings(found.config)
         ):
@@ -281,7 +287,7 @@ class Detector:
             tensor = Tensor(found.strength, found.coherence, found.orientation)
         else:
             with timed(seconds, "edges"):
-                edges, thresholds = candidate_edges(photo, config)
+                edges, thresholds = candidate_edges(photo, config, frame)
                 rows, columns = edge_pixels(edges)
             with timed(seconds, "tensor"):
                 tensor = tensor_at(photo, rows, columns)
@@ -312,7 +318,8 @@ class Detector:
         return FilterDetection(
             method=self.name,
             photo=photo,
-            skyline=Skyline(rows=path.rows.astype(np.float32)),
+            skyline=Skyline(path.rows.astype(np.float32), frame.shows(photo.shape[1])),
+            frame=frame,
             sky=sky,
             edges=edges,
             edge_rows=rows,
@@ -334,15 +341,16 @@ class Detector:
         )
 
     def _sky(
-        self, photo: U8, seconds: dict[str, float], found: FilterDetection | None
+        self, photo: U8, frame: Frame, seconds: dict[str, float], found: FilterDetection | None
     ) -> F32 | None:
         """The map of the sky model, that of a detection if it is the same; None if switched off."""
         if not self.config.sky_weight:
             return None
-        if found and found.sky is not None and found.detector.sky == self.sky:
+        same = found and found.frame == frame and found.detector.sky == self.sky
+        if found and same and found.sky is not None:
             return found.sky
         with timed(seconds, "sky"):
-            return self.sky.sky(photo)
+            return self.sky.sky(without_frame(photo, frame))
 
 
 def _cost_alike(config: DetectorConfig, found: FilterDetection) -> bool:

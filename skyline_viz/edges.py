@@ -11,6 +11,8 @@ import numpy as np
 
 from skyline_viz.arrays import I16, U8, Bool, Int
 from skyline_viz.config import DetectorConfig, EdgeSource
+from skyline_viz.frames.finding import find_frame
+from skyline_viz.frames.frame import Frame
 
 STRONG_PERCENTILE = 95
 """Percentile of a photo's gradients that stands for its strong ones."""
@@ -27,9 +29,6 @@ NOISE_MULTIPLE = 4.0
 LOWEST_FACTOR = 0.3
 """The thresholds are lowered to this share at the most."""
 
-FRAME_SHARE = 0.5
-"""A row at the rim of a photo is a picture frame when edges fill more than this share of it."""
-
 GRADIENT_STEP = 6
 """Gradients are sampled this many pixels apart."""
 
@@ -45,19 +44,33 @@ def to_grey(photo: U8) -> U8:
     return grey
 
 
-def candidate_edges(photo: U8, config: DetectorConfig) -> tuple[Bool, tuple[float, float]]:
-    """Edge map ``(H, W)`` of a photo without its frame, and the Canny thresholds that made it."""
-    edges, thresholds = find_edges(
-        photo,
+def frame_of(photo: U8, config: DetectorConfig) -> Frame:
+    """The frame of a photo, inside which edges are looked for; none if it is not asked for."""
+    return find_frame(photo, config.frame) if config.frame else Frame()
+
+
+def candidate_edges(
+    photo: U8, config: DetectorConfig, frame: Frame | None = None
+) -> tuple[Bool, tuple[float, float]]:
+    """Edge map ``(H, W)`` of a photo without its frame, and the Canny thresholds that made it.
+
+    Args:
+        photo: ``(H, W, 3)`` uint8 RGB.
+        config: The settings.
+        frame: That of `frame_of`, where it is known already.
+    """
+    inside = (frame or frame_of(photo, config)).inside(photo)
+    found, thresholds = find_edges(
+        photo[inside],
         config.edge_source,
         config.low_threshold,
         config.high_threshold,
         fit=config.fit_thresholds,
     )
-    height = len(edges)
-    for row in {*range(config.frame), *range(height - config.frame, height)} & set(range(height)):
-        if edges[row].mean() > FRAME_SHARE:
-            edges[row] = False
+    if found.shape == photo.shape[:2]:
+        return found, thresholds
+    edges = np.zeros(photo.shape[:2], np.bool_)
+    edges[inside] = found
     return edges, thresholds
 
 

@@ -1,0 +1,1 @@
+"""Frames around pictures: what they are, and how they are found."""
