@@ -113,7 +113,7 @@ class _Picture:
 
     def room(self, side: Side) -> int:
         """How far a frame may reach into the picture from a side, in pixels."""
-        whole = self.photo.shape[1 if side in ("left", "right") else 0]
+        whole = int(self.photo.shape[1 if side in ("left", "right") else 0])
         return len(self.from_side(side)) - max(SMALLEST, whole // 12)
 
     def behind_bars(self) -> Frame:
@@ -126,8 +126,8 @@ class _Picture:
                 bars[side] = bar
         frame = self.frame
         for side, bar in bars.items():
-            across = bars.get(ACROSS[side])
-            if bar.width + (across.width if across else 0) <= self.room(side):
+            other = bars.get(ACROSS[side])
+            if bar.width + (other.width if other else 0) <= self.room(side):
                 frame = frame.widened(side, bar.width)
         return frame
 
