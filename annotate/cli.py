@@ -11,7 +11,7 @@ from annotate.commands.repairs import Repair
 from annotate.commands.reports import Agreement, Status
 from annotate.commands.transfer import Backup, Export, Import
 from skyline_viz import __version__
-from skyline_viz.command_line.methods import described
+from skyline_viz.command_line.methods import described, spelt_out
 from skyline_viz.command_line.program import Command, parsed, run_program
 
 _ABOUT = f"""Label mountain skylines: the detector proposes, a few clicks correct, nothing is lost.
@@ -37,8 +37,9 @@ def parse(arguments: list[str]) -> Command:
         ValueError: A setting has a value that it refuses.
     """
     missing: Any = tyro.MISSING
+    words = spelt_out(arguments, masks=("import",))
     commands = {
-        "open": Open(missing, methods=described(arguments)),
+        "open": Open(missing, methods=described(words)),
         "export": Export(missing),
         "import": Import(missing, missing),
         "status": Status(missing),
@@ -50,4 +51,4 @@ def parse(arguments: list[str]) -> Command:
         Annotated[type(default), tyro.conf.subcommand(name, default=default)]
         for name, default in commands.items()
     )
-    return parsed(PROGRAM, _ABOUT, Union[kinds], arguments)  # noqa: UP007  # known at run time
+    return parsed(PROGRAM, _ABOUT, Union[kinds], words)  # noqa: UP007  # known at run time

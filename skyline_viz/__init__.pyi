@@ -43,6 +43,7 @@ from .photo import read_photo as read_photo
 from .photo import write_photo as write_photo
 from .rendering.scenes import Scene as Scene
 from .rendering.scenes import render as render
+from .sky_model import SkyModel as SkyModel
 from .skyline import Skyline as Skyline
 from .skyline import SkylineError as SkylineError
 from .training import train as train

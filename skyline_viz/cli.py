@@ -6,7 +6,7 @@ from typing import Annotated, Any, Union
 import tyro
 
 from skyline_viz import __version__
-from skyline_viz.command_line.methods import Methods, described
+from skyline_viz.command_line.methods import Methods, described, spelt_out
 from skyline_viz.command_line.program import Command, parsed, run_program
 from skyline_viz.commands.demo import Demo
 from skyline_viz.commands.detect import Detect
@@ -25,6 +25,9 @@ Version {__version__} (--version). Each command explains itself: skyline-viz det
 """
 
 
+_READS_TRUTHS = ("inspect", "gallery", "train", "evaluate", "tables", "diagnose")
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command line and return its exit status.
 
@@ -41,7 +44,8 @@ def parse(arguments: list[str]) -> Command:
         SystemExit: After help was printed, or what is wrong with the words.
         ValueError: A setting has a value that it refuses.
     """
-    return parsed("skyline-viz", _ABOUT, _commands(described(arguments)), arguments)
+    words = spelt_out(arguments, masks=_READS_TRUTHS)
+    return parsed("skyline-viz", _ABOUT, _commands(described(words)), words)
 
 
 def _commands(methods: Methods) -> Any:  # noqa: ANN401  # a union that is made at run time

@@ -142,7 +142,7 @@ class Detection:
         yield Stage(EDGES, self.edges, "mask")
         yield Stage(SCORE, self.scores, "edges")
         for name, values in self.maps.items():
-            yield Stage(Quantity(name, group="maps"), values, "photo")
+            yield Stage(Quantity(name, group="maps", smooth=True), values, "photo")
         yield from self._last_stages()
 
     def _last_stages(self) -> Iterator[Stage]:
@@ -303,8 +303,10 @@ class FilterDetection(Detection):
         low, high = self.thresholds
         made = self.bank.provenance
         photos = f"{made.images} photos of {made.dataset}" if made.images else "an unknown source"
+        sky = [] if self.sky is None else [f"Sky model {self.detector.sky.name}."]
         return [
             f"{settings.capitalize()}.",
+            *sky,
             f"Canny thresholds {low:.0f} and {high:.0f}.",
             f"Filters learned from {photos}.",
         ]

@@ -139,15 +139,15 @@ class Detector:
         """The same filters with other settings.
 
         Args:
-            values: Fields of the configuration, and under ``sky`` a sky model as
-                `SkyModel.named` takes it.
+            values: Fields of the configuration, and under ``sky`` a sky model, or what
+                `SkyModel.named` takes for one.
 
         Raises:
             ValueError: One has a value that it refuses.
         """
         others = dict(values)
-        named = others.pop("sky", self.sky.name)
-        sky = self.sky if named == self.sky.name else SkyModel.named(str(named))
+        named = others.pop("sky", self.sky)
+        sky = named if isinstance(named, SkyModel) else SkyModel.named(str(named))
         return replace(self, config=self.config.with_settings(others), sky=sky)
 
     def own_name(self) -> str:

@@ -53,6 +53,9 @@ class Quantity:
     tabs: tuple[str, ...] = ("Stages",)
     """Which tabs of the viewer show it: ``Stages``, ``Tensor``."""
 
+    smooth: bool = False
+    """Whether a map changes so slowly that small recordings keep it of all pixels, not of edges."""
+
     word: str = ""
     """What hovering a pixel shows before the value; the name unless given."""
 
@@ -125,7 +128,9 @@ class Stage:
         return self.quantity.colour_map
 
 
-SKY = Quantity("sky", low=0.0, high=1.0, about="Sky: bright where the sky model sees it")
+SKY = Quantity(
+    "sky", low=0.0, high=1.0, smooth=True, about="Sky: bright where the sky model sees it"
+)
 EDGES = Quantity("edges", "gray", about="Edges")
 STRENGTH = Quantity(
     "strength",

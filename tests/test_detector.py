@@ -17,14 +17,17 @@ from skyline_viz.detector import Detector
 from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.path import margins, path_tables
+from skyline_viz.sky_model import SkyModel
 from skyline_viz.skyline import Skyline
+from skyline_viz.system.settings import MethodError
 from testing.detections import BOTH, mountains, random_photo
 from testing.examples import examples
+from testing.networks import bright_model, bright_sky
 
 STEADY = examples(25)
 
 STAGES = ("skyline", "edges", "edge_rows", "edge_columns", "strength", "coherence")
-STAGES += ("orientation", "bins", "scores", "cost", "path_cost", "thresholds")
+STAGES += ("orientation", "bins", "scores", "cost", "path_cost", "thresholds", "sky")
 
 
 @pytest.fixture(scope="module")
@@ -262,6 +265,8 @@ def test_a_detector_can_be_sent_to_another_process(detector):
         {"link_weight": 0.4},
         {"v": 0.9},
         {"clear_sky": 0.0, "terrain_weight": 0.0},
+        {"sky_weight": 0.0},
+        {"sky_weight": 2.0, "sky_cap": 0.3},
         {"strength_percentile": 80.0},
         {"non_edge_cost": 1.5},
         {"frame": 0},
@@ -289,6 +294,65 @@ def test_detecting_again_with_another_bank(detector):
         again = Detector(bank).again(found)
         assert_same(again, Detector(bank).detect(photo))
         assert again.bank is bank
+
+
+def test_the_map_of_the_sky_is_made_once(monkeypatch):
+    photo, _ = mountains()
+    runs = []
+    whole = SkyModel._map
+    monkeypatch.setattr(SkyModel, "_map", lambda *given: runs.append(given) or whole(*given))
+    detector = Detector(sky=bright_model())
+    found = detector.detect(photo)
+    assert len(runs) == 1
+    for changes in ({"delta": 2}, {"sky_weight": 1.0}, {"edge_source": "grey"}, {"v": 0.9}):
+        again = found.again(replace(found.config, **changes))
+        assert again.sky is found.sky
+        assert again.seconds["sky"] == 0
+        assert again.detector.sky == detector.sky
+    without = found.again(replace(found.config, sky_weight=0.0))
+    assert without.sky is None
+    assert len(runs) == 1
+    assert_same(without.again(found.config), found)  # asked again, as the map was dropped
+    assert len(runs) == 2
+    assert Detector(sky=bright_model(6, 8)).again(found).sky.shape == (3, 4)
+
+
+def test_a_sky_model_that_is_switched_off_is_not_even_opened():
+    nothing = SkyModel("nothing", b"this is no network")
+    photo, _ = mountains()
+    for config in (DetectorConfig(sky_weight=0.0), DetectorConfig.paper()):
+        found = Detector(config=config, sky=nothing).detect(photo)
+        assert found.sky is None
+        assert "sky" not in found.stages
+        assert found.cost_model["sky"].weight == 0
+    with pytest.raises(MethodError, match="the sky model nothing is not an ONNX file"):
+        Detector(sky=nothing).detect(photo)
+
+
+def test_the_sky_model_decides_between_two_ridges():
+    photo = np.full((120, 200, 3), 220, np.uint8)
+    photo[40:] = 190  # a far ridge, bright as the sky
+    photo[80:] = 30
+    config = DetectorConfig(clear_sky=0, terrain_weight=0, v=0)
+    plain = Detector(config=replace(config, sky_weight=0)).detect(photo)
+    assert set(plain.skyline.rows.tolist()) == {80}
+    for ridge, brightness in ((40, 205), (80, 110)):
+        logit = 40 * (brightness / 255 - 0.5)
+        model = SkyModel("sure", bright_sky(24, 32, bias=-20 - logit))
+        found = Detector(config=config, sky=model).detect(photo)
+        assert set(found.skyline.rows.tolist()) == {ridge}
+
+
+def test_the_stage_sky_is_a_map_of_the_photo():
+    photo, _ = mountains()
+    found = Detector(sky=bright_model()).detect(photo)
+    stage = found.stages["sky"]
+    assert next(iter(found.stages)) == "sky"
+    assert stage.where == "photo"
+    assert stage.values.shape == photo.shape[:2]
+    assert 0 <= stage.values.min() < 0.01 < 0.99 < stage.values.max() <= 1
+    assert not stage.values.flags.writeable
+    assert "Sky model bright." in found.about()
 
 
 def test_the_given_bank_scores():

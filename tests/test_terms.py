@@ -13,6 +13,7 @@ from skyline_viz.terms import (
     Link,
     MapTerm,
     NoEdge,
+    Sky,
     Term,
     add_blocks,
 )
@@ -55,10 +56,11 @@ def terms(edges):
         MapTerm(name="map", weight=3.0, edges=edges, values=values),
         GivenEdges(name="edge", weight=1.0, edges=edges, cost=values, score=score),
         GivenOthers(name="others", weight=1.0, edges=edges, cost=values),
+        Sky(name="sky", weight=3.0, edges=edges, sky=values[:5, :6], cap=0.7),
     ]
 
 
-@pytest.mark.parametrize("number", range(6))
+@pytest.mark.parametrize("number", range(7))
 def test_pixels_pay_what_the_map_says(number):
     edges = some_edges(1)
     term = terms(edges)[number]
@@ -149,3 +151,66 @@ def test_blocks_of_one_value_move_every_pixel_alike():
     cost = np.full((30, 20), 2, np.float32).T
     add_blocks(cost, np.full((2, 3), -0.25, np.float32), 2.0, 8)
     assert np.allclose(cost, 1.5)
+
+
+# Sky
+
+
+def slow_sky(sky, height, width, weight, cap):
+    """What pixels pay, by adding up the improbable parts of each column row by row."""
+    regions, across = sky.shape
+    centres = (np.arange(across) + 0.5) * width / across - 0.5
+    column_of = np.array([np.interp(np.arange(width), centres, line) for line in sky]).T
+    paid = np.empty((height, width))
+    for column in range(width):
+        for row in range(height):
+            line = row / height  # the upper side of the row, in heights of the photo
+            total = 0.0
+            for region in range(regions):
+                first, last = region / regions, (region + 1) / regions
+                above = min(max(line - first, 0), last - first)
+                p = column_of[column, region]
+                total += above * (1 - p) + (last - first - above) * p
+            paid[row, column] = weight * total
+        paid[:, column] -= paid[:, column].min()
+    return np.minimum(paid, cap)
+
+
+def sky_map(sky, height, width, weight=1.0, cap=1e6):
+    edges = np.zeros((height, width), bool)
+    sky = np.asarray(sky, np.float32)
+    return Sky(name="sky", weight=weight, edges=edges, sky=sky, cap=cap).map()
+
+
+@STEADY
+@given(
+    st.tuples(st.integers(1, 23), st.integers(1, 19), st.integers(1, 7), st.integers(1, 6)),
+    st.integers(0, 2**32 - 1),
+    st.floats(0.001, 9),
+    st.floats(0, 3),
+)
+def test_sky_against_plain_python(sizes, seed, weight, cap):
+    height, width, regions, across = sizes
+    sky = np.random.default_rng(seed).random((regions, across)).astype(np.float32)
+    paid = sky_map(sky, height, width, weight, cap)
+    np.testing.assert_allclose(paid, slow_sky(sky, height, width, weight, cap), atol=2e-5)
+
+
+@STEADY
+@given(st.integers(2, 90), st.integers(1, 60), st.integers(1, 12), st.integers(0, 2**32 - 1))
+def test_sky_costs_nothing_at_the_best_row_and_never_more_than_the_cap(height, width, across, seed):
+    sky = np.random.default_rng(seed).random((across + 3, across)).astype(np.float32)
+    paid = sky_map(sky, height, width, 5.0, 0.4)
+    assert (paid.min(axis=0) == 0).all()
+    assert paid.max() <= np.float32(0.4)
+
+
+def test_a_sure_map_is_cheapest_where_sky_ends_and_every_height_beyond_costs_the_weight():
+    sky = np.repeat([[1.0], [1.0], [0.0], [0.0]], 3, axis=1)
+    paid = sky_map(sky, 40, 30, weight=8.0)
+    assert (paid.argmin(axis=0) == 20).all()
+    assert paid[20].tolist() == [0] * 30
+    assert np.allclose(paid[25], 1)  # an eighth of the height
+    assert np.allclose(paid[0], 4)
+    unsure = sky_map(np.full((4, 3), 0.5), 40, 30, weight=8.0)
+    assert not unsure.any()

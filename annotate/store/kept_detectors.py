@@ -59,7 +59,8 @@ def unpack(config: str, bank: bytes) -> Method:
     settings = json.loads(config)
     if "method" in settings:
         return load_method(bank)
-    return Detector(Detector.load(bank).bank, DetectorConfig(**settings))
+    before_sky_models = {"sky_weight": 0.0, **settings}
+    return Detector(Detector.load(bank).bank, DetectorConfig(**before_sky_models))
 
 
 def keep_detector(database: sqlite3.Connection, detector: Method) -> int:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import asdict, dataclass, field
 from itertools import pairwise
 from pathlib import Path
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
 MethodTexts: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="METHOD [METHOD ...]")]
 """Methods by what they are named, see `methods.specs`."""
 
+SkyModelName: TypeAlias = Annotated[str | None, tyro.conf.arg(metavar="{small,large,FILE.onnx}")]
+"""A sky model as `SkyModel.named` takes it."""
+
 
 @dataclass(frozen=True)
 class Methods:
@@ -39,6 +43,9 @@ class Methods:
 
     bank: BankFile = None
     """File of a detector or filter bank, with its settings unless --preset says others."""
+
+    sky_model: SkyModelName = None
+    """The sky model of our detector; --sky is short for it. The small one unless given."""
 
     preset: Preset = "default"
     """Where the settings below start from: the best that is known, or the published method."""
@@ -110,23 +117,51 @@ class Methods:
         from skyline_viz.methods.registry import find_method
 
         if self.bank is None:
-            return Detector(config=self.config)
+            ours = Detector(config=self.config)
+            return ours.with_settings({"sky": self.sky_model}) if self.sky_model else ours
         base, _, settings = self.config.name.partition(":")
         brought = find_method(str(self.bank))
         if not isinstance(brought, Detector):
             raise UsageError(f"{self.bank} is a method, not a filter bank; name it with --method.")
         own, wanted = asdict(brought.config), asdict(self.config)
         differ = [f"{one}={spelt(value)}" for one, value in wanted.items() if value != own[one]]
+        sky = [f"sky={self.sky_model}"] if self.sky_model else []
         if len(differ) > settings.count("=") + 1:  # it is nearer to a preset than to its own
-            differ = (
-                [f"model={self.bank}", *settings.split(",")] if settings else [f"model={self.bank}"]
-            )
-            return find_method(f"{base}:{','.join(differ)}")
-        return find_method(f"{self.bank}:{','.join(differ)}" if differ else str(self.bank))
+            own_settings = settings.split(",") if settings else []
+            text = ",".join([f"model={self.bank}", *own_settings, *sky])
+            return find_method(f"{base}:{text}")
+        text = ",".join([*differ, *sky])
+        return find_method(f"{self.bank}:{text}" if text else str(self.bank))
 
 
 MethodOptions: TypeAlias = Annotated[Methods, tyro.conf.arg(name="")]
 """`Methods` without a prefix of their own."""
+
+
+def spelt_out(arguments: Sequence[str], masks: Container[str]) -> list[str]:
+    """A command line in which ``--sky`` of a sky model is ``--sky-model``.
+
+    Where truths are read ``--sky`` says what is sky in masks, too. No value of a mask is called as
+    sky models are, so both can be meant, and told apart.
+
+    Args:
+        arguments: The words after the program's name.
+        masks: Commands that read truths.
+
+    >>> spelt_out(["evaluate", "hills", "--sky", "0", "--sky=large"], masks={"evaluate"})
+    ['evaluate', 'hills', '--sky', '0', '--sky-model', 'large']
+    """
+    model = re.compile(r".*\.onnx|small|large" if arguments[:1] and arguments[0] in masks else ".*")
+    words: list[str] = []
+    for word in arguments:
+        option, equals, value = word.partition("=")
+        if words[-1:] == ["--sky"] and model.fullmatch(word):
+            words[-1:] = ["--sky-model", word]
+        elif option == "--sky" and equals and model.fullmatch(value):
+            words += ["--sky-model", value]
+        else:
+            words.append(word)
+    return words
 
 
 def described(arguments: Sequence[str]) -> Methods:
@@ -141,7 +176,7 @@ def described(arguments: Sequence[str]) -> Methods:
     words = [word for argument in arguments for word in argument.split("=", 1)]
     presets = [after for word, after in pairwise(words) if word == "--preset"]
     banks = [after for word, after in pairwise(words) if word == "--bank"]
-    short = ("--preset", "--bank", "--config.")
+    short = ("--preset", "--bank", "--config.", "--sky-model")
     ours = any(word.startswith(short) for word in words)
     config = DetectorConfig()
     if presets:

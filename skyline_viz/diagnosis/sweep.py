@@ -83,7 +83,8 @@ def size_sweep(found: FilterDetection, banks: Sequence[FilterBank]) -> Sweep:
     """
     made, own = banks[0].provenance, found.bank.provenance
     steps = {
-        bank.size: (f"{bank.size} x {bank.size} px", Detector(bank, found.config)) for bank in banks
+        bank.size: (f"{bank.size} x {bank.size} px", replace(found.detector, bank=bank, label=""))
+        for bank in banks
     }
     note = (
         f"All sizes learned from the same {_photos(made.images)} of {made.dataset}, without this "
@@ -109,7 +110,7 @@ def _thresholds(found: FilterDetection) -> Sweep:
             min(one * (percent / 100), most_of("low_threshold")) for one in found.thresholds
         )
         config = replace(found.config, fit_thresholds=False, low_threshold=low, high_threshold=high)
-        steps[percent] = f"{low:.4g} and {high:.4g}", Detector(found.bank, config)
+        steps[percent] = f"{low:.4g} and {high:.4g}", _with(found, config)
     return Sweep(
         "canny_thresholds",
         "Canny thresholds",
@@ -161,11 +162,15 @@ def _numbers(
     steps = {}
     for value in values:
         config: DetectorConfig = replace(found.config, **{field: value})  # type: ignore[arg-type]
-        steps[round(scale * value)] = f"{value:.4g}{unit}", Detector(found.bank, config)
+        steps[round(scale * value)] = f"{value:.4g}{unit}", _with(found, config)
     present = round(scale * getattr(found.config, field))
     title = field.replace("_", " ")
     title = title.capitalize() if " " in title else title  # v and delta are symbols
     return Sweep(field, title, counts, _in_order(steps), present, steps[present][0])
+
+
+def _with(found: FilterDetection, config: DetectorConfig) -> Detector:
+    return replace(found.detector, config=config, label="")
 
 
 def _in_order(steps: dict[int, tuple[str, Detector]]) -> tuple[Step, ...]:

@@ -81,7 +81,8 @@ def _settings(method: Method) -> dict[str, object]:
     """Settings and bank of our detector; of another method its name says all."""
     if not isinstance(method, Detector):
         return {}
-    return {"config": asdict(method.config), "bank": asdict(method.bank.provenance)}
+    about = {"config": asdict(method.config), "bank": asdict(method.bank.provenance)}
+    return {**about, "sky": method.sky.name}
 
 
 def _without_nan(summary: Summary) -> dict[str, object]:

@@ -58,7 +58,7 @@ def log_maps(
         entity = at(entities.of_quantity(stage.quantity))
         if stage.where == "mask":
             recording.log(entity, encoded_edges(np.asarray(stage.values, np.bool_)))
-        elif stage.where == "photo" and stage.quantity.group == "maps":  # whole even if lean
+        elif stage.where == "photo" and stage.quantity.smooth:  # whole even if lean
             levels = FINE if shown is None else COARSE
             dense_map(stage.quantity, stage.values, levels).log(recording, entity)
         elif stage.where in ("edges", "photo"):

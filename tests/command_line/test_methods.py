@@ -3,8 +3,10 @@
 import pytest
 
 import skyline_viz as sv
+from skyline_viz.cli import parse
 from skyline_viz.command_line.messages import UsageError
-from skyline_viz.command_line.methods import Methods, described
+from skyline_viz.command_line.methods import Methods, described, spelt_out
+from testing.networks import bright_sky
 
 
 @pytest.mark.parametrize(
@@ -96,3 +98,45 @@ def test_a_class_of_no_network_is_refused():
     assert options.given  # so that every command looks at it
     with pytest.raises(UsageError, match="--sky-class is a class of --network, which is not named"):
         options.chosen()
+
+
+@pytest.mark.parametrize(
+    ("words", "spelt"),
+    [
+        ("detect a.jpg --sky large", "detect a.jpg --sky-model large"),
+        ("detect a.jpg --sky=x.onnx", "detect a.jpg --sky-model x.onnx"),
+        ("detect --sky huge", "detect --sky-model huge"),
+        ("evaluate d --sky 0", "evaluate d --sky 0"),
+        ("evaluate d --sky=0 --sky small", "evaluate d --sky=0 --sky-model small"),
+        ("evaluate d --sky blue --sky a/b.onnx", "evaluate d --sky blue --sky-model a/b.onnx"),
+        ("evaluate d --sky", "evaluate d --sky"),
+        ("", ""),
+    ],
+)
+def test_a_sky_model_and_the_sky_of_masks_are_told_apart(words, spelt):
+    assert spelt_out(words.split(), masks={"evaluate"}) == spelt.split()
+
+
+@pytest.mark.parametrize(
+    ("words", "name"),
+    [
+        ("", "default:sky=s.onnx"),
+        ("--preset paper", "paper:sky=s.onnx"),
+        ("--bank b.npz", "mine:sky=s.onnx"),
+        ("--bank b.npz --preset paper", "paper:sky=s.onnx,model=b.npz"),
+    ],
+)
+def test_a_sky_model_is_an_option_beside_presets_and_banks(words, name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "s.onnx").write_bytes(bright_sky())
+    sv.Detector(label="mine").save("b.npz")
+    command = parse(["evaluate", ".", "--sky", "s.onnx", "--sky", "0", *words.split()])
+    (found,) = command.methods.chosen()
+    assert found.sky == sv.SkyModel("s.onnx", bright_sky())
+    assert command.truths.sky == "0"
+    assert found.name == name
+
+
+def test_no_sky_model_is_a_sentence():
+    with pytest.raises(sv.MethodError, match="huge is no sky model"):
+        parse(["detect", "a.jpg", "--sky", "huge"]).methods.chosen()

@@ -1,14 +1,12 @@
 """What the path would be if one thing were different."""
 
-from dataclasses import replace
-
 import numpy as np
 
 import skyline_viz as sv
 from skyline_viz.diagnosis.counterfactual import Case
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.skyline import Skyline
-from testing.detections import flat_truth
+from testing.detections import WITHOUT_SKY, flat_truth
 
 
 def test_columns_that_were_never_wrong_are_not_repaired(flat):
@@ -23,13 +21,13 @@ def test_without_delta_a_step_of_one_row_is_too_steep():
     rows = 60 + np.arange(300) // 12
     for column, row in enumerate(rows):
         photo[row:, column] = 60
-    detector = sv.Detector(config=replace(sv.DetectorConfig(), delta=0))
+    detector = sv.Detector(config=sv.DetectorConfig(delta=0, sky_weight=0))
     truth = Skyline(rows=rows)
     detection = detector.detect(photo)
     assert Case(detection, truth, 4.0).columns_of("too steep", 0, 299).any()
     said = {one.cause for one in diagnose(detection, truth).segments}
     assert "too steep" in said
-    default = Case(sv.Detector().detect(photo), truth, 4.0)
+    default = Case(WITHOUT_SKY.detect(photo), truth, 4.0)
     assert not default.columns_of("too steep", 0, 299).any()
 
 

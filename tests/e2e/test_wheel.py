@@ -39,9 +39,10 @@ def run(program, *arguments, cwd):
     return subprocess.run(command, cwd=cwd, env=clean, capture_output=True, text=True, check=False)
 
 
-def test_the_wheel_holds_the_bank_and_the_licence_and_no_photograph(wheel):
+def test_the_wheel_holds_bank_sky_models_and_licence_and_no_photograph(wheel):
     names = zipfile.ZipFile(wheel).namelist()
     assert "skyline_viz/filter_bank.npz" in names
+    assert {"skyline_viz/sky_small.onnx", "skyline_viz/sky_large.onnx"} <= set(names)
     assert "skyline_viz/py.typed" in names
     assert any(name.endswith("LICENSE") for name in names)
     assert not any(name.endswith((".jpg", ".bmp", ".png")) for name in names)

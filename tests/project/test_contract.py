@@ -68,10 +68,23 @@ def test_a_detection_tells_all_that_was_seen(detection, photo):
         detection.cost = None
 
 
+def test_a_sky_model_says_what_is_sky(photo, detection, tmp_path):
+    model = sv.SkyModel.small()
+    sky = model.sky(photo)
+    assert sky.ndim == 2
+    assert sky.dtype == np.float32
+    assert 0 <= sky.min() <= sky.max() <= 1
+    assert np.array_equal(detection.sky, sky)
+    (tmp_path / "mine.onnx").write_bytes(model.network)
+    detector = sv.Detector(sky=sv.SkyModel.load(tmp_path / "mine.onnx"))
+    assert detector.name == "default:sky=mine.onnx"
+    detector.save(tmp_path / "d.npz")
+    assert sv.Detector.load(tmp_path / "d.npz").sky.network == model.network
+
+
 def test_its_stages_have_values_a_unit_and_a_colour_map(detection):
-    assert {"edges", "strength", "coherence", "orientation", "bin", "score", "cost", "path"} <= set(
-        detection.stages
-    )
+    names = ["edges", "strength", "coherence", "orientation", "bin", "score", "cost", "path"]
+    assert {"sky", *names} <= set(detection.stages)
     for name, stage in detection.stages.items():
         assert stage.name == name
         assert len(stage.values)
