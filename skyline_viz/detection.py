@@ -37,6 +37,7 @@ from skyline_viz.stage import (
 from skyline_viz.tensor import tensor_map
 from skyline_viz.terms import Link
 from skyline_viz.uncertainty import Uncertainty, uncertainty
+from skyline_viz.visibility import Visibility
 
 if TYPE_CHECKING:
     from skyline_viz.detector import Detector
@@ -99,6 +100,9 @@ class Detection:
     thresholds: tuple[float, float] | None = None
     """Canny thresholds that were used; None of methods that have them fixed, or none."""
 
+    visibility: Visibility | None = None
+    """Where the line can be seen, and whether it is a skyline; None of methods that cannot tell."""
+
     maps: Mapping[str, F32] = field(default_factory=lambda: MappingProxyType({}))
     """Further maps ``(H, W)`` that the method made, by name: its own stages."""
 
@@ -112,6 +116,11 @@ class Detection:
     def starved(self) -> Bool:
         """``(n,)`` edge pixels whose score was learned from too little."""
         return np.zeros(len(self.scores), np.bool_)
+
+    @property
+    def confidence(self) -> float | None:
+        """How surely the photo has a skyline, in [0, 1], see `visibility.Visibility.confidence`."""
+        return None if self.visibility is None else self.visibility.confidence
 
     @property
     def delta(self) -> int:

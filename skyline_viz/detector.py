@@ -26,6 +26,7 @@ from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
 from skyline_viz.tensor import Tensor, tensor_at
 from skyline_viz.training import GramMatrices, gather_item, solve, train
+from skyline_viz.visibility import visibility
 
 STAGES = ("sky", "edges", "tensor", "bins", "score", "cost", "path")
 """The stages whose seconds are told, in their order."""
@@ -236,7 +237,9 @@ class Detector:
     def detect(self, photo: U8) -> FilterDetection:
         """Find the skyline of a photo.
 
-        A photo without a single edge gets a level line in the middle; its margins are 0.
+        A photo without a single edge gets a level line in the middle; its margins are 0. Where the
+        line cannot be seen, and in photos without a skyline everywhere, it is marked as not
+        visible, see `visibility.Visibility`; without a sky model it counts as visible everywhere.
 
         Args:
             photo: ``(H, W, 3)`` uint8 RGB.
@@ -302,10 +305,17 @@ class Detector:
                 cost = model.total()
         with timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
+            line = Skyline(rows=path.rows.astype(np.float32))
+            shown = None
+            if sky is not None:
+                on_edge = edges[path.rows, np.arange(line.width)]
+                shown = visibility(sky, line.rows, on_edge, len(rows), len(edges))
+                line = Skyline(rows=line.rows, visible=shown.visible)
         return FilterDetection(
             method=self.name,
             photo=photo,
-            skyline=Skyline(rows=path.rows.astype(np.float32)),
+            skyline=line,
+            visibility=shown,
             sky=sky,
             edges=edges,
             edge_rows=rows,
