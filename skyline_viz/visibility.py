@@ -32,7 +32,7 @@ Case: TypeAlias = Literal["skyline", "does not cross", "no sky", "no terrain"]
 """What a photo shows: a skyline from side to side, one that is not visible everywhere, or none for
 want of sky or of terrain."""
 
-PHOTO_THRESHOLD = 0.6
+PHOTO_THRESHOLD = 0.5
 """A photo of less confidence has no skyline."""
 
 COLUMN_THRESHOLD = 0.33
