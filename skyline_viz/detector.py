@@ -265,7 +265,7 @@ class Detector:
     def _detect(self, photo: U8, found: FilterDetection | None = None) -> FilterDetection:
         """See `detect` and `again`."""
         config, bank = self.config, self.bank
-        seconds = dict.fromkeys(STAGES, 0.0)
+        seconds = dict.fromkeys(STAGES if config.sky_weight else STAGES[1:], 0.0)
         sky = self._sky(photo, seconds, found)
         if found and not (
             bank.bins == found.bank.bins and edge_settings(config) == edge_settings(found.config)

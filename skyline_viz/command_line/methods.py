@@ -26,6 +26,8 @@ MethodTexts: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="METHO
 SkyModelName: TypeAlias = Annotated[str | None, tyro.conf.arg(metavar="{small,large,FILE.onnx}")]
 """A sky model as `SkyModel.named` takes it."""
 
+_SKY_MODEL = re.compile(r"small|large|.*\.onnx", re.DOTALL)
+
 
 @dataclass(frozen=True)
 class Methods:
@@ -149,16 +151,15 @@ def spelt_out(arguments: Sequence[str], masks: Container[str]) -> list[str]:
         masks: Commands that read truths.
 
     >>> spelt_out(["evaluate", "hills", "--sky", "0", "--sky=large"], masks={"evaluate"})
-    ['evaluate', 'hills', '--sky', '0', '--sky-model', 'large']
+    ['evaluate', 'hills', '--sky', '0', '--sky-model=large']
     """
-    model = re.compile(r".*\.onnx|small|large" if arguments[:1] and arguments[0] in masks else ".*")
+    reads_masks = bool(arguments) and arguments[0] in masks
     words: list[str] = []
-    for word in arguments:
+    for at, word in enumerate(arguments):
         option, equals, value = word.partition("=")
-        if words[-1:] == ["--sky"] and model.fullmatch(word):
-            words[-1:] = ["--sky-model", word]
-        elif option == "--sky" and equals and model.fullmatch(value):
-            words += ["--sky-model", value]
+        named = value if equals else "".join(arguments[at + 1 : at + 2])
+        if option == "--sky" and (not reads_masks or _SKY_MODEL.fullmatch(named)):
+            words.append(f"--sky-model{equals}{value}")
         else:
             words.append(word)
     return words

@@ -104,12 +104,13 @@ def test_a_class_of_no_network_is_refused():
     ("words", "spelt"),
     [
         ("detect a.jpg --sky large", "detect a.jpg --sky-model large"),
-        ("detect a.jpg --sky=x.onnx", "detect a.jpg --sky-model x.onnx"),
+        ("detect a.jpg --sky=x.onnx", "detect a.jpg --sky-model=x.onnx"),
         ("detect --sky huge", "detect --sky-model huge"),
         ("evaluate d --sky 0", "evaluate d --sky 0"),
         ("evaluate d --sky=0 --sky small", "evaluate d --sky=0 --sky-model small"),
         ("evaluate d --sky blue --sky a/b.onnx", "evaluate d --sky blue --sky-model a/b.onnx"),
         ("evaluate d --sky", "evaluate d --sky"),
+        ("detect a.jpg --sky", "detect a.jpg --sky-model"),
         ("", ""),
     ],
 )
