@@ -294,8 +294,7 @@ class FilterDetection(Detection):
     def _sky_map(self) -> F32:
         """``(H, W)`` probability of sky of each pixel, interpolated between centres of regions."""
         assert self.sky is not None
-        height, width = self.edges.shape
-        whole = np.asarray(cv2.resize(self.sky, (width, height)), np.float32)
+        whole = np.asarray(cv2.resize(self.sky, self.edges.shape[::-1]), np.float32)
         read_only(whole)
         return whole
 
@@ -305,10 +304,8 @@ class FilterDetection(Detection):
 
     def about(self) -> list[str]:
         """How it was made, in short sentences: settings, and where the filters are from."""
-        if self.config == DetectorConfig.paper():
-            settings = "the paper's settings"
-        else:
-            settings = ", ".join(self.config.changed()) or "default settings"
+        changed = ", ".join(self.config.changed()) or "default settings"
+        settings = "the paper's settings" if self.config == DetectorConfig.paper() else changed
         low, high = self.thresholds
         made = self.bank.provenance
         photos = f"{made.images} photos of {made.dataset}" if made.images else "an unknown source"

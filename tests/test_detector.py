@@ -16,11 +16,11 @@ from skyline_viz.cost import normalised
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation.metrics import a_err
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.path import margins, path_tables, shortest_path
+from skyline_viz.path import margins, path_tables
 from skyline_viz.sky_model import SkyModel
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.settings import MethodError
-from testing.detections import BOTH, Halves, half_a_line, mountains, random_photo, unseen
+from testing.detections import BOTH, mountains, random_photo
 from testing.examples import examples
 from testing.networks import bright_model, bright_sky
 
@@ -363,39 +363,3 @@ def test_the_given_bank_scores():
     assert not detection.scores.any()
     assert detection.bank is silent
     assert Detector(bank).detect(photo).scores.any()
-
-
-# Where the line can be seen
-
-
-def test_what_is_no_skyline_is_marked_and_said():
-    detection = unseen().detect(mountains()[0])
-    assert detection.visibility.case == "no sky"
-    assert detection.confidence < 0.1
-    assert not detection.skyline.visible.any()
-    assert "visible" in repr(detection.skyline)
-
-
-def test_columns_that_do_not_show_the_line_are_marked():
-    photo = half_a_line()
-    detection = unseen(Halves).detect(photo)
-    assert detection.visibility.case == "does not cross"
-    half = photo.shape[1] // 2
-    assert detection.skyline.visible[: half - 8].all()
-    assert not detection.skyline.visible[half + 8 :].any()
-
-
-@pytest.mark.parametrize("config", [DetectorConfig.paper(), DetectorConfig(sky_weight=0)])
-def test_without_a_sky_model_every_column_is_visible(config):
-    detection = replace(unseen(), config=config).detect(mountains()[0])
-    assert (detection.visibility, detection.confidence) == (None, None)
-    assert detection.skyline.visible.all()
-
-
-def test_what_is_visible_moves_no_line():
-    photo = mountains()[0]
-    detection = unseen().detect(photo)
-    path = shortest_path(detection.cost, detection.delta, detection.link_weight)
-    assert np.array_equal(detection.skyline.rows, path.rows.astype(np.float32))
-    again = detection.again(replace(detection.config, link_weight=0.2))
-    assert again.visibility.case == "no sky"

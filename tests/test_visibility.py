@@ -1,11 +1,15 @@
 """Where a line is a skyline: kinds of photos by their maps, and what always holds."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.arrays import runs
+from skyline_viz.config import DetectorConfig
+from skyline_viz.path import shortest_path
 from skyline_viz.visibility import (
     COLUMN_THRESHOLD,
     PHOTO_THRESHOLD,
@@ -13,6 +17,7 @@ from skyline_viz.visibility import (
     Visibility,
     visibility,
 )
+from testing.detections import Halves, half_a_line, mountains, unseen
 
 HEIGHT, WIDTH = 96, 64
 
@@ -174,3 +179,39 @@ def test_more_sky_above_and_less_below_never_lowers_the_evidence(case, share):
     before = visibility(sky, rows, on_edge, edges, height)
     after = visibility(surer, rows, on_edge, edges, height)
     assert (after.evidence >= before.evidence - 1e-5).all()
+
+
+# In detections
+
+
+def test_what_is_no_skyline_is_marked_and_said():
+    detection = unseen().detect(mountains()[0])
+    assert detection.visibility.case == "no sky"
+    assert detection.confidence < 0.1
+    assert not detection.skyline.visible.any()
+    assert "visible" in repr(detection.skyline)
+
+
+def test_columns_that_do_not_show_the_line_are_marked():
+    photo = half_a_line()
+    detection = unseen(Halves).detect(photo)
+    assert detection.visibility.case == "does not cross"
+    half = photo.shape[1] // 2
+    assert detection.skyline.visible[: half - 8].all()
+    assert not detection.skyline.visible[half + 8 :].any()
+
+
+@pytest.mark.parametrize("config", [DetectorConfig.paper(), DetectorConfig(sky_weight=0)])
+def test_without_a_sky_model_every_column_is_visible(config):
+    detection = replace(unseen(), config=config).detect(mountains()[0])
+    assert (detection.visibility, detection.confidence) == (None, None)
+    assert detection.skyline.visible.all()
+
+
+def test_what_is_visible_moves_no_line():
+    photo = mountains()[0]
+    detection = unseen().detect(photo)
+    path = shortest_path(detection.cost, detection.delta, detection.link_weight)
+    assert np.array_equal(detection.skyline.rows, path.rows.astype(np.float32))
+    again = detection.again(replace(detection.config, link_weight=0.2))
+    assert again.visibility.case == "no sky"
