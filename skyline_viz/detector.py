@@ -308,8 +308,7 @@ class Detector:
             line = Skyline(rows=path.rows.astype(np.float32))
             shown = None
             if sky is not None:
-                on_edge = edges[path.rows, np.arange(line.width)]
-                shown = visibility(sky, line.rows, on_edge, len(rows), len(edges))
+                shown = visibility(sky, line.rows, rows, columns, len(edges))
                 line = Skyline(rows=line.rows, visible=shown.visible)
         return FilterDetection(
             method=self.name,

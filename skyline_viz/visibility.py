@@ -12,8 +12,9 @@ is near 1: all above it is sky, all below it terrain. This is what the model's t
 leaves unsaid. The term is less its minimum in the column, so it tells a better row from a worse
 one, and not whether the best one is any good. A model can be wrong about a photo that leaves no
 doubt, though: where the line runs on nearly the only edges that there are, these speak for it, too.
-The larger of both, times the share of columns around in which the line runs on an edge at all, is
-the evidence of a column.
+The larger of both is the evidence of a column, as far as the edges bear it out: times the share of
+columns around in which the line runs on an edge, and less where what should be sky is as full of
+edges as what should be terrain.
 
 The thresholds were chosen with whole sources left out, see ``docs/method.md``.
 """
@@ -26,7 +27,7 @@ from typing import Literal, TypeAlias
 import numba
 import numpy as np
 
-from skyline_viz.arrays import F32, Bool, read_only, runs
+from skyline_viz.arrays import F32, Bool, Int, read_only, runs
 
 Case: TypeAlias = Literal["skyline", "does not cross", "no sky", "no terrain"]
 """What a photo shows: a skyline from side to side, one that is not visible everywhere, or none for
@@ -35,11 +36,18 @@ want of sky or of terrain."""
 PHOTO_THRESHOLD = 0.5
 """A photo of less confidence has no skyline."""
 
-COLUMN_THRESHOLD = 0.33
+COLUMN_THRESHOLD = 0.3
 """In a column of less evidence the line is not visible."""
 
 AROUND = 1 / 16
 """Columns over which evidence is averaged, as a share of the width."""
+
+FEW_EDGES = 0.1
+"""Share of pixels with an edge that says little, above the line or below it: grain and clouds have
+as many."""
+
+NEAR = 3
+"""Edges within so many rows of the line are its own, and lie neither above nor below it."""
 
 SHORTEST = 1 / 32
 """Gaps of fewer columns, as a share of the width, are a doubt and no absence: the line is visible
@@ -59,10 +67,13 @@ class Visibility:
 
     Examples:
         >>> sky = np.repeat([[1.0], [1.0], [0.0], [0.0]], 3, axis=1).astype(np.float32)
-        >>> rows, on_edge = np.full(6, 50, np.float32), np.ones(6, np.bool_)
-        >>> visibility(sky, rows, on_edge, edges=100, height=100).case
+        >>> edge_rows, edge_columns = np.divmod(np.arange(600, dtype=np.int32), 6)
+        >>> low = edge_rows >= 50  # the lower half is all edges
+        >>> edges = edge_rows[low], edge_columns[low]
+        >>> rows = np.full(6, 50, np.float32)
+        >>> visibility(sky, rows, *edges, height=100).case
         'skyline'
-        >>> visibility(0 * sky, rows, on_edge, edges=100, height=100).case
+        >>> visibility(0 * sky, rows, *edges, height=100).case
         'no sky'
     """
 
@@ -101,18 +112,24 @@ class Visibility:
         return f"No skyline is visible: there seems to be {self.case} ({sure})."
 
 
-def visibility(sky: F32, rows: F32, on_edge: Bool, edges: int, height: int) -> Visibility:
+def visibility(sky: F32, rows: F32, edge_rows: Int, edge_columns: Int, height: int) -> Visibility:
     """Ask the map of a sky model where a line is a skyline.
 
     Args:
         sky: ``(h, w)`` probability of sky of each region, see `sky_model.SkyModel.sky`.
         rows: ``(W,)`` the line: the row of the first terrain pixel of each column.
-        on_edge: ``(W,)`` whether the line runs on an edge pixel.
-        edges: Number of edge pixels in the photo.
+        edge_rows: ``(n,)`` int32 row of each edge pixel.
+        edge_columns: ``(n,)`` int32 column of each edge pixel.
         height: Rows of the photo.
     """
-    alone = np.count_nonzero(on_edge) / max(edges, 1)
+    on_edge, above, below = _edges_about(rows, edge_rows, edge_columns, NEAR)
+    alone = np.count_nonzero(on_edge) / max(len(edge_rows), 1)
+    over = float(rows.sum())
+    above_share = above / max(over, 1.0)
+    below_share = below / max(height * len(rows) - over, 1.0)
+    clear = 1 - above_share / (above_share + below_share + FEW_EDGES)
     evidence = _evidence(sky, rows, on_edge, alone, height, RIM, AROUND)
+    evidence *= np.float32(clear)
     place = len(evidence) - 1 - int(SUREST * (len(evidence) - 1))
     confidence = float(np.partition(evidence, place)[place])
     if confidence < PHOTO_THRESHOLD:
@@ -129,6 +146,21 @@ def visibility(sky: F32, rows: F32, on_edge: Bool, edges: int, height: int) -> V
 def _missing(sky: F32) -> Case:
     """What a photo without a skyline has least of."""
     return "no terrain" if sky.mean() > 0.5 else "no sky"
+
+
+@numba.njit(cache=True, nogil=True)
+def _edges_about(rows: F32, edge_rows: Int, edge_columns: Int, near: int) -> tuple[Bool, int, int]:
+    """Where the line runs on an edge ``(W,)``, and how many edge pixels lie above and below it."""
+    on_edge = np.zeros(rows.size, np.bool_)
+    above = below = 0
+    for edge in range(edge_rows.size):
+        column = edge_columns[edge]
+        lower = edge_rows[edge] - rows[column]
+        if lower == 0:
+            on_edge[column] = True
+        above += lower < -near
+        below += lower > near
+    return on_edge, above, below
 
 
 @numba.njit(cache=True, nogil=True)
