@@ -3,8 +3,9 @@
     python -m benchmarks [DATA]
 
 DATA is a folder with the real data sets: ``web_dataset`` (photos with truth, in the layout in
-which the authors publish the Web set) and, if there, ``new_dataset`` (large photos). Without it
-only the rendered samples are measured, and the report says so.
+which the authors publish the Web set) and, if there, ``mountains`` and ``uav`` (other photos with
+truth) and ``new_dataset`` (large photos). Without it only the rendered samples are measured, and
+the report says so.
 """
 
 import datetime as dt
@@ -23,6 +24,7 @@ from benchmarks import (
     recordings,
     robustness,
     speed,
+    visibility,
 )
 from skyline_viz import __version__
 from skyline_viz.files import write_text
@@ -45,6 +47,8 @@ def main() -> None:
     else:
         parts += [accuracy.cross_validated(web), robustness.varied(web), filters.studies(web)]
         parts.append(methods.compared(web))
+        others = (data / name for name in ("mountains", "uav"))
+        parts.append(visibility.denied([web, *(one for one in others if one.is_dir())]))
     parts += [accuracy.rendered(ROOT / "sample_data"), speed.measured(web, ROOT / "sample_data")]
     parts.append(recordings.measured(web, ROOT / "sample_data"))
     parts += [labelling.measured(web, data), clicks.measured(), causes.confusion()]
