@@ -27,6 +27,7 @@ from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
 from skyline_viz.tensor import Tensor, tensor_at
 from skyline_viz.training import GramMatrices, gather_item, solve, train
+from skyline_viz.visibility import visibility
 
 STAGES = ("sky", "edges", "tensor", "bins", "score", "cost", "path")
 """The stages whose seconds are told, in their order."""
@@ -244,7 +245,9 @@ class Detector:
     def detect(self, photo: U8) -> FilterDetection:
         """Find the skyline of a photo.
 
-        A photo without a single edge gets a level line in the middle; its margins are 0.
+        A photo without a single edge gets a level line in the middle; its margins are 0. Where the
+        line cannot be seen, and in photos without a skyline everywhere, it is marked as not
+        visible, see `visibility.Visibility`; without a sky model it counts as visible everywhere.
 
         Args:
             photo: ``(H, W, 3)`` uint8 RGB.
@@ -315,11 +318,17 @@ class Detector:
                 cost = model.total()
         with timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
+            line = Skyline(path.rows.astype(np.float32), frame.shows(photo.shape[1]))
+            shown = None
+            if sky is not None:
+                shown = visibility(sky, line.rows, rows, columns, len(edges))
+                line = Skyline(line.rows, line.visible & shown.visible)
         return FilterDetection(
             method=self.name,
             photo=photo,
-            skyline=Skyline(path.rows.astype(np.float32), frame.shows(photo.shape[1])),
+            skyline=line,
             frame=frame,
+            visibility=shown,
             sky=sky,
             edges=edges,
             edge_rows=rows,
