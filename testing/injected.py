@@ -126,7 +126,7 @@ def bank_without(random, photo, truth, before, samples):
     silent = np.unique(before.bins[near])
     filters, counts = before.bank.filters.copy(), np.maximum(before.bank.samples, 1000)
     filters[silent], counts[silent] = 0, samples
-    bank = FilterBank(filters, counts, before.bank.terrain, before.bank.bins)
+    bank = FilterBank(filters, counts, before.bank.bins)
     return photo, truth, bank, (first, last)
 
 
