@@ -25,6 +25,7 @@ from benchmarks import (
     recordings,
     robustness,
     speed,
+    visibility,
 )
 from benchmarks.left_out import Models
 from skyline_viz import __version__
@@ -54,6 +55,8 @@ def main() -> None:
         parts.append(cameras.measured(data, models, networks))
         parts += [robustness.varied(web, sky), filters.studies(data, sky)]
         parts.append(methods.compared(web, sky))
+        others = (data / name for name in ("mountains", "uav"))
+        parts.append(visibility.denied([web, *(one for one in others if one.is_dir())]))
     parts += [accuracy.rendered(ROOT / "sample_data"), speed.measured(web, ROOT / "sample_data")]
     parts.append(recordings.measured(web, ROOT / "sample_data"))
     parts += [labelling.measured(web, data, sky), clicks.measured(), causes.confusion()]

@@ -22,6 +22,7 @@ from .evaluation.cross_validation import cross_validate as cross_validate
 from .evaluation.cross_validation import evaluate as evaluate
 from .evaluation.evaluated import Evaluation as Evaluation
 from .evaluation.metrics import a_err as a_err
+from .evaluation.metrics import called_invisible as called_invisible
 from .evaluation.metrics import column_errors as column_errors
 from .evaluation.metrics import is_gross_miss as is_gross_miss
 from .evaluation.metrics import segmentation_accuracy as segmentation_accuracy
@@ -51,5 +52,6 @@ from .viewer.notebook import show_detection as show_detection
 from .viewer.recording import log_detection as log_detection
 from .viewer.recording import log_stages as log_stages
 from .viewer.recording import new_recording as new_recording
+from .visibility import Visibility as Visibility
 
 __version__: str

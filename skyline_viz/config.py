@@ -41,7 +41,8 @@ class DetectorConfig:
     """Whether the thresholds are lowered for soft and hazy photos, see `fitted_thresholds`."""
 
     frame: int = 4
-    """Rows at the top and at the bottom in which edges all across count as a picture frame."""
+    """Widest border around a picture that may hold anything, in pixels; bars of one colour have any
+    width. 0 looks for no frame."""
 
     v: float = 0.5
     """Weight of the score against the gradient strength, in [0, 1] (the paper's ``v``)."""

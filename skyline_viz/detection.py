@@ -38,6 +38,7 @@ from skyline_viz.stage import (
 from skyline_viz.tensor import tensor_map
 from skyline_viz.terms import Link
 from skyline_viz.uncertainty import Uncertainty, uncertainty
+from skyline_viz.visibility import Visibility
 
 if TYPE_CHECKING:
     from skyline_viz.detector import Detector
@@ -100,6 +101,9 @@ class Detection:
     thresholds: tuple[float, float] | None = None
     """Canny thresholds that were used; None of methods that have them fixed, or none."""
 
+    visibility: Visibility | None = None
+    """Where the line can be seen, and whether it is a skyline; None of methods that cannot tell."""
+
     maps: Mapping[str, F32] = field(default_factory=lambda: MappingProxyType({}))
     """Further maps ``(H, W)`` that the method made, by name: its own stages."""
 
@@ -113,6 +117,11 @@ class Detection:
     def starved(self) -> Bool:
         """``(n,)`` edge pixels whose score was learned from too little."""
         return np.zeros(len(self.scores), np.bool_)
+
+    @property
+    def confidence(self) -> float | None:
+        """How surely the photo has a skyline, in [0, 1], see `visibility.Visibility.confidence`."""
+        return None if self.visibility is None else self.visibility.confidence
 
     @property
     def delta(self) -> int:
@@ -289,8 +298,7 @@ class FilterDetection(Detection):
     def _sky_map(self) -> F32:
         """``(H, W)`` probability of sky of each pixel, interpolated between centres of regions."""
         assert self.sky is not None
-        height, width = self.edges.shape
-        whole = np.asarray(cv2.resize(self.sky, (width, height)), np.float32)
+        whole = np.asarray(cv2.resize(self.sky, self.edges.shape[::-1]), np.float32)
         read_only(whole)
         return whole
 
@@ -300,10 +308,8 @@ class FilterDetection(Detection):
 
     def about(self) -> list[str]:
         """How it was made, in short sentences: settings, and where the filters are from."""
-        if self.config == DetectorConfig.paper():
-            settings = "the paper's settings"
-        else:
-            settings = ", ".join(self.config.changed()) or "default settings"
+        changed = ", ".join(self.config.changed()) or "default settings"
+        settings = "the paper's settings" if self.config == DetectorConfig.paper() else changed
         low, high = self.thresholds
         made = self.bank.provenance
         photos = f"{made.images} photos of {made.dataset}" if made.images else "an unknown source"

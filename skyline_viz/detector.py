@@ -27,6 +27,7 @@ from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
 from skyline_viz.tensor import Tensor, tensor_at
 from skyline_viz.training import GramMatrices, gather_item, solve, train
+from skyline_viz.visibility import visibility
 
 STAGES = ("sky", "edges", "tensor", "bins", "score", "cost", "path")
 """The stages whose seconds are told, in their order."""
@@ -249,7 +250,9 @@ class Detector:
         """Find the skyline of a photo.
 
         In a photo without a single edge the line follows the sky model's map. Without a sky model,
-        or where its map says nothing, it is level in the middle, and its margins are 0.
+        or where its map says nothing, it is level in the middle, and its margins are 0. Where the
+        line cannot be seen, and in photos without a skyline everywhere, it is marked as not
+        visible, see `visibility.Visibility`; without a sky model it counts as visible everywhere.
 
         Args:
             photo: ``(H, W, 3)`` uint8 RGB.
@@ -320,11 +323,17 @@ class Detector:
                 cost = model.total()
         with timed(seconds, "path"):
             path = shortest_path(cost, config.delta, config.link_weight)
+            line = Skyline(path.rows.astype(np.float32), frame.shows(photo.shape[1]))
+            shown = None
+            if sky is not None:
+                shown = visibility(sky, line.rows, rows, columns, len(edges))
+                line = Skyline(line.rows, line.visible & shown.visible)
         return FilterDetection(
             method=self.name,
             photo=photo,
-            skyline=Skyline(path.rows.astype(np.float32), frame.shows(photo.shape[1])),
+            skyline=line,
             frame=frame,
+            visibility=shown,
             sky=sky,
             edges=edges,
             edge_rows=rows,

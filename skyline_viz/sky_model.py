@@ -21,7 +21,7 @@ import numpy.typing as npt
 
 from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.networks.onnx_files import MEAN, STD, Network, read_network, sigmoid
-from skyline_viz.networks.trial import digest_of, remember
+from skyline_viz.networks.trial import digest_of, remember, survived
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
 from skyline_viz.system.settings import MethodError
 
@@ -198,10 +198,10 @@ class SkyModel:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go to other processes: by name if shipped, else with the word that it was tried."""
-        if self.name in SHIPPED and self is _shipped(self.name):
+        if self.name in SHIPPED and self == _shipped(self.name):
             return _shipped, (self.name,)
-        opened: Network | None = getattr(self._here, "network", None)
-        return _received, (self.name, self.network, opened.digest if opened else "")
+        tried = survived(digest_of(self.network, classic=True))
+        return _received, (self.name, self.network, tried)
 
 
 def reduced(photo: U8, rows: int, columns: int) -> U8:
@@ -242,8 +242,8 @@ def _shipped(name: str) -> SkyModel:
     return SkyModel(name, network)
 
 
-def _received(name: str, network: bytes, tried: str) -> SkyModel:
-    """A model that comes from another process."""
+def _received(name: str, network: bytes, tried: bool) -> SkyModel:
+    """A model that comes from another process, which may have tried its network."""
     if tried:
-        remember(tried)
+        remember(digest_of(network, classic=True))
     return SkyModel(name, network)

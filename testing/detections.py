@@ -11,6 +11,7 @@ from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation.results import PhotoResult
 from skyline_viz.rendering import render
+from skyline_viz.sky_model import SkyModel
 from skyline_viz.skyline import Skyline
 
 WITHOUT_SKY = Detector(config=DetectorConfig(sky_weight=0.0))
@@ -121,3 +122,36 @@ def result(name: str = "a", error: float = 0.0, **changes) -> PhotoResult:
         "width": 10,
     }
     return PhotoResult(**(values | changes))
+
+
+class NoSky(SkyModel):
+    """A sky model that sees terrain everywhere."""
+
+    def sky(self, photo):
+        return np.zeros((4, 4), np.float32)
+
+
+class Halves(SkyModel):
+    """A sky model that sees a level line in the middle of the left half, and terrain elsewhere."""
+
+    def sky(self, photo):
+        seen = np.zeros((40, 40), np.float32)
+        seen[:20, :20] = 1
+        return seen
+
+
+def unseen(kind=NoSky):
+    """A detector with such a sky model."""
+    return Detector(sky=kind("blind", b""), label="blind")
+
+
+def half_a_line(height=120, width=160):
+    """A photo with a level line in the middle of its left half, and terrain of one grey elsewhere.
+
+    Two lines of dots below keep the line from being the only edge there is.
+    """
+    photo = np.full((height, width, 3), 70, np.uint8)
+    photo[: height // 2, : width // 2] = 210
+    for row in (height // 2 + 20, height // 2 + 40):
+        photo[row : row + 4, ::8] = 250
+    return photo

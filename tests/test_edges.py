@@ -7,8 +7,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.config import DetectorConfig
-from skyline_viz.edges import FRAME_SHARE, candidate_edges, edge_pixels, fitted_thresholds, to_grey
+from skyline_viz.edges import (
+    candidate_edges,
+    edge_pixels,
+    fitted_thresholds,
+    frame_of,
+    to_grey,
+)
+from skyline_viz.frames.frame import Frame
 from testing.examples import examples
+from testing.scenes import framed, noise
 
 STEADY = examples(60)
 SOURCES = pytest.mark.parametrize("source", ["grey", "colour"])
@@ -42,10 +50,6 @@ def texture(seed=0):
 def grainy(photo, deviation, seed=0):
     noise = np.random.default_rng(seed).normal(0, deviation, photo.shape)
     return np.clip(photo + noise, 0, 255).astype(np.uint8)
-
-
-def noise(height, width, seed):
-    return np.random.default_rng(seed).integers(0, 256, (height, width, 3), dtype=np.uint8)
 
 
 # Where edges are
@@ -111,26 +115,39 @@ def test_fitted_edges_are_those_of_the_fitted_thresholds():
     assert fitted.sum() > edges_of(photo).sum()
 
 
-@pytest.mark.parametrize("frame", [0, 1, 4, 19, 20, 1000])
-def test_lines_all_across_the_frame_are_dropped(frame):
-    photo = texture()[72:112, :60]
-    photo[:3] = 0
-    photo[20:23, 5:] = 255
-    everywhere = edges_of(photo, frame=0)
-    expected = everywhere.copy()
-    for row in range(40):
-        if (row < frame or row >= 40 - frame) and everywhere[row].mean() > FRAME_SHARE:
-            expected[row] = False
-    assert np.array_equal(edges_of(photo, frame=frame), expected)
-    assert (everywhere.mean(axis=1) > FRAME_SHARE).any()
+FRAMES = [{"top": 12, "bottom": 12}, {"left": 30, "right": 7}, {"left": 2, "right": 2, "top": 2}]
 
 
-def test_a_skyline_that_touches_the_frame_is_kept():
+@SOURCES
+@pytest.mark.parametrize("frame", FRAMES, ids=str)
+def test_edges_are_those_of_the_picture_in_its_frame(source, frame):
+    picture = noise(40, 60, seed=2)
+    photo = framed(picture, **frame)
+    inside = Frame(**frame).inside(photo)
+    for chosen in ({}, {"fit_thresholds": True}):
+        edges = edges_of(photo, source, frame=4, **chosen)
+        assert np.array_equal(edges[inside], edges_of(picture, source, **chosen))
+        assert edges.sum() == edges[inside].sum() > 0
+
+
+def test_without_frames_their_edges_stay():
+    photo = framed(noise(40, 60, seed=2), top=12, bottom=12)
+    assert edges_of(photo)[12].mean() > 0.5
+    assert frame_of(photo, DetectorConfig()) == Frame(top=12, bottom=12)
+    assert frame_of(photo, DetectorConfig.paper()) == Frame()
+
+
+def test_a_frame_that_is_known_is_not_looked_for():
+    photo = noise(40, 60, seed=2)
+    edges, _ = candidate_edges(photo, DetectorConfig(), Frame(left=9))
+    assert not edges[:, :9].any()
+    assert edges[:, 9:].any()
+
+
+def test_a_skyline_that_touches_the_rim_is_kept():
     photo = np.full((60, 80, 3), 220, np.uint8)
     photo[np.arange(60)[:, None] >= np.abs(np.arange(80) - 40)[None, :] * 0.5 + 1] = 60
-    edges = edges_of(photo)
-    assert edges[:4].any()
-    assert not edges_of(photo, frame=0)[:4].mean(axis=1).max() > FRAME_SHARE
+    assert edges_of(photo, frame=4)[:4].any()
 
 
 @SOURCES

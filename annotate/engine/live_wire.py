@@ -73,6 +73,9 @@ class LiveWire:
         self.height, self.width = photo.shape[:2]
         self.blind = detector is None
         self.proposal: Skyline | None = None
+        self.doubt = ""
+        """What the detector says of its proposal where it is no skyline, or not everywhere; which
+        columns are visible is for the annotator to say."""
         self.detection: Detection | None = None
         """What the proposal is from, where it was to be kept."""
         if detector is None:
@@ -82,6 +85,7 @@ class LiveWire:
             detection = detector.detect(photo)
             cost, forward = detection.cost, detection.forward.T
             self.proposal = detection.skyline
+            self.doubt = detection.visibility.doubt if detection.visibility else ""
             self._delta = min(detection.delta, self.height - 1)
             self._link_weight = float(detection.link_weight)
             self.detection = detection if keep else None

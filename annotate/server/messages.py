@@ -213,6 +213,10 @@ class Document(BaseModel):
     doubtful: int | None
     """A column that a diagnosis asks to look at."""
 
+    doubt: str
+    """What the detector says of its proposal where it is no skyline, or not everywhere; nothing
+    once somebody has worked on the photo."""
+
     @classmethod
     def of(cls, session: Session, doubtful: int | None, kept: int | None = None) -> Document:
         """Show a session; hold its lock meanwhile."""
@@ -238,6 +242,7 @@ class Document(BaseModel):
             kept=kept,
             origins=dict(zip(ORIGINS, counts, strict=True)),
             doubtful=doubtful,
+            doubt=wire.doubt if state.status == "to do" else "",
         )
 
 

@@ -62,10 +62,12 @@ toolbar.on("tool", ({ id, name, title }) => {
   labelling.say(`${name}. ${title}`);
 });
 labelling.on("document", ({ fresh }) => {
-  const column = labelling.document?.doubtful ?? null;
-  if (!fresh || column === null) return;
-  line.goTo(column);
-  labelling.say(`A diagnosis doubts the truth around column ${column}.`);
+  const { doubtful = null, doubt = "" } = labelling.document ?? {};
+  if (!fresh) return;
+  if (doubtful !== null) {
+    line.goTo(doubtful);
+    labelling.say(`A diagnosis doubts the truth around column ${doubtful}.`);
+  } else if (doubt) labelling.say(doubt);
 });
 
 listen(table, (event) => {

@@ -45,6 +45,7 @@ export interface Document {
   kept: number | null;
   origins: { [name: string]: number };
   doubtful: number | null;
+  doubt: string;
 }
 
 /** The line is drawn by hand. */

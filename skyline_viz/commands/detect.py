@@ -71,6 +71,8 @@ class Detect:
                 failures.append(outcome)
             else:
                 tell(outcome.line(wide))
+                if outcome.doubt:
+                    tell(f"{shortened(outcome.name)}: {outcome.doubt}")
         written = len(inputs) - len(failures)
         if written > 1:
             tell(f"{counted(written, 'skyline')} in {self.out}")
@@ -84,6 +86,7 @@ class _Found:
     width: int
     seconds: float
     files: tuple[Path, ...]
+    doubt: str
 
     def line(self, wide: int) -> str:
         size = f"{self.width}x{self.height}"
@@ -117,4 +120,5 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
         if options.overlay:
             files.append(path.with_name(f"{photo.name}-overlay.jpg"))
             write_photo(files[-1], draw_overlay(pixels, found.skyline))
-    return _Found(photo.name, height, width, found.total_seconds, tuple(files))
+    doubt = found.visibility.doubt if found.visibility else ""
+    return _Found(photo.name, height, width, found.total_seconds, tuple(files), doubt)

@@ -273,6 +273,8 @@ class Inspect:
             inspect_more.log_sweeps(recording, sweeps, ours, truth)
         error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
         tell(f"{one.name}{error}  margin {verdict.margin:.3g}")
+        if found.visibility and found.visibility.doubt:
+            tell(f"{one.name}: {found.visibility.doubt}")
         if diagnosis and diagnosis.right:
             tell(*diagnosis.said_right.splitlines())
         return Contents.of(

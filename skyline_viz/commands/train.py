@@ -47,11 +47,11 @@ class Train:
     """What to train: our detector, with settings such as paper:delta=4, one of the earlier methods
     that learn, or a class of yours, package.module:Class."""
 
-    sky_model: SizeName | None = None
-    """Learn a sky model of this size instead of filters, for --sky FILE.onnx; takes an hour."""
+    learn_sky: SizeName | None = None
+    """Learn a sky model of this size instead of filters: a FILE.onnx for --sky; takes an hour."""
 
     teacher: Annotated[Path | None, tyro.conf.arg(metavar="FILE.onnx")] = None
-    """Sky network that says what is sky in photos without a truth, for --sky-model."""
+    """Sky network that says what is sky in photos without a truth, for --learn-sky."""
 
     steps: int = STEPS
     """How many batches of 16 photos a sky model sees."""
@@ -85,10 +85,12 @@ class Train:
             raise UsageError(f"{self.out} is a folder; name a file for the detector.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
-        if self.sky_model is not None:
-            return self._train_sky(self.sky_model)
+        if self.learn_sky is not None:
+            return self._train_sky(self.learn_sky)
         if self.teacher is not None or self.steps != STEPS:
-            raise UsageError("--teacher and --steps are for a sky model; name its --sky-model.")
+            raise UsageError(
+                "--teacher and --steps are for a sky model; name its size, --learn-sky."
+            )
         sets, photos = self._sets()
         output_folder(self.out.parent, ())
         from skyline_viz.detector import Detector

@@ -1,4 +1,7 @@
-"""How far a skyline is from the truth. Every metric counts the columns visible in both."""
+"""How far a skyline is from the truth. Every metric counts the columns in which it is visible.
+
+What a detection itself calls visible changes nothing: it cannot get better by looking away.
+"""
 
 from dataclasses import dataclass
 
@@ -51,7 +54,7 @@ def wrong_segments(
 
 
 def column_errors(skyline: Skyline, truth: Skyline) -> F64:
-    """Distance ``|row - truth row|`` in pixels, ``(W,)``; NaN where not visible in both.
+    """Distance ``|row - truth row|`` in pixels, ``(W,)``; NaN where the truth is not visible.
 
     Raises:
         SkylineError: The widths differ.
@@ -60,13 +63,15 @@ def column_errors(skyline: Skyline, truth: Skyline) -> F64:
         >>> hidden = Skyline(rows=[4, 4, 4], visible=[True, False, True])
         >>> column_errors(Skyline(rows=[4, 5, 6]), hidden)
         array([ 0., nan,  2.])
+        >>> column_errors(hidden, Skyline(rows=[4, 5, 6]))
+        array([0., 1., 2.])
     """
     if skyline.width != truth.width:
         raise SkylineError(
             f"the skyline has {skyline.width} columns, the truth {truth.width}; they must match"
         )
     errors = np.abs(skyline.rows.astype(np.float64) - truth.rows)
-    return np.where(skyline.visible & truth.visible, errors, np.nan)
+    return np.where(truth.visible, errors, np.nan)
 
 
 def a_err(skyline: Skyline, truth: Skyline) -> float:
@@ -76,10 +81,10 @@ def a_err(skyline: Skyline, truth: Skyline) -> float:
     A_{err} = \frac{1}{N} \sum_{j=1}^{N} | P_{d(j)} - P_{g(j)} |
     $$
 
-    The sum runs over the columns visible in both.
+    The sum runs over the columns in which the truth is visible.
 
     Raises:
-        SkylineError: The widths differ, or no column is visible in both.
+        SkylineError: The widths differ, or the truth is visible nowhere.
 
     Examples:
         >>> a_err(Skyline(rows=[4, 5, 6]), Skyline(rows=[4, 4, 4]))
@@ -88,12 +93,12 @@ def a_err(skyline: Skyline, truth: Skyline) -> float:
     errors = column_errors(skyline, truth)
     errors = errors[~np.isnan(errors)]
     if len(errors) == 0:
-        raise SkylineError("no column is visible in both the skyline and the truth")
+        raise SkylineError("the truth is visible in no column")
     return float(errors.mean())
 
 
 def segmentation_accuracy(skyline: Skyline, truth: Skyline, height: int) -> float:
-    """Share of pixels in visible columns that both call sky or both call terrain, in [0, 1].
+    """Share of pixels that both call sky or both call terrain, where the truth is visible.
 
     Raises:
         SkylineError: The widths differ, a row lies outside `height`, or nothing is visible.
@@ -107,6 +112,22 @@ def segmentation_accuracy(skyline: Skyline, truth: Skyline, height: int) -> floa
         for line in (skyline, truth)
     ]
     return 1.0 - a_err(*whole) / height
+
+
+def called_invisible(skyline: Skyline, truth: Skyline) -> float:
+    """Share of the truth's visible columns that a skyline calls not visible, in [0, 1].
+
+    Raises:
+        SkylineError: The widths differ, or the truth is visible nowhere.
+
+    Examples:
+        >>> called_invisible(Skyline([4, 5], visible=[True, False]), Skyline([4, 4]))
+        0.5
+    """
+    counts = ~np.isnan(column_errors(skyline, truth))
+    if not counts.any():
+        raise SkylineError("the truth is visible in no column")
+    return float(1 - skyline.visible[counts].mean())
 
 
 def is_gross_miss(error: float, height: int) -> bool:
@@ -143,7 +164,7 @@ class Errors:
         """Compare a skyline with the truth, on a photo of `height` rows.
 
         Raises:
-            SkylineError: The widths differ, or no column is visible in both.
+            SkylineError: The widths differ, or the truth is visible nowhere.
         """
         errors = column_errors(skyline, truth)
         mean = a_err(skyline, truth)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from skyline_viz.evaluation.metrics import Errors, segmentation_accuracy
+from skyline_viz.evaluation.metrics import Errors, called_invisible, segmentation_accuracy
 from skyline_viz.skyline import Skyline
 
 
@@ -41,6 +41,9 @@ class PhotoResult:
     width: int
     """Columns of the photo."""
 
+    called_invisible: float = 0.0
+    """Share of the truth's visible columns that the detection calls not visible, in [0, 1]."""
+
     @classmethod
     def of(
         cls, name: str, skyline: Skyline, truth: Skyline, height: int, seconds: float = math.nan
@@ -61,6 +64,7 @@ class PhotoResult:
             seconds=seconds,
             height=height,
             width=truth.width,
+            called_invisible=called_invisible(skyline, truth),
         )
 
 
@@ -107,6 +111,9 @@ class Summary:
     seconds: float
     """Median time of a detection."""
 
+    called_invisible: float = 0.0
+    """Mean over photos of the share of the truth's visible columns called not visible."""
+
     @classmethod
     def of(cls, results: Sequence[PhotoResult]) -> "Summary":
         """Summarise; all figures of no result at all are NaN, and the counts 0."""
@@ -126,6 +133,7 @@ class Summary:
             gross_misses=sum(result.gross_miss for result in results),
             segmentation_accuracy=float(np.mean([r.segmentation_accuracy for r in results])),
             seconds=float(np.median([result.seconds for result in results])),
+            called_invisible=float(np.mean([result.called_invisible for result in results])),
         )
 
 

@@ -106,6 +106,7 @@ def _figures(summary: Summary) -> list[tuple[str, str]]:
         ("photos under 5 px", _share(summary.under_5_px, summary.photos)),
         ("gross misses (over 5 % of the height)", f"{summary.gross_misses}"),
         ("segmentation accuracy", f"{summary.segmentation_accuracy:.2%}"),
+        ("visible columns called invisible", f"{summary.called_invisible:.2%}"),
         ("time of a detection, median", f"{summary.seconds:.3f} s"),
     ]
 

@@ -15,7 +15,7 @@ then: a frame leaves something inside that could be one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -113,7 +113,7 @@ class _Picture:
 
     def room(self, side: Side) -> int:
         """How far a frame may reach into the picture from a side, in pixels."""
-        whole = self.photo.shape[1 if side in ("left", "right") else 0]
+        whole = int(self.photo.shape[1 if side in ("left", "right") else 0])
         return len(self.from_side(side)) - max(SMALLEST, whole // 12)
 
     def behind_bars(self) -> Frame:
@@ -126,10 +126,12 @@ class _Picture:
                 bars[side] = bar
         frame = self.frame
         for side, bar in bars.items():
-            across = bars.get(ACROSS[side])
-            if bar.width + (across.width if across else 0) <= self.room(side):
+            other = bars.get(ACROSS[side])
+            if bar.width + (other.width if other else 0) <= self.room(side):
                 frame = frame.widened(side, bar.width)
-        return frame
+        if frame == self.frame or self.changes_inside(frame):
+            return frame
+        return replace(frame, top=self.frame.top, bottom=self.frame.bottom)
 
     def bar(self, side: Side) -> _Bar | None:
         """What looks like a bar at a side: one colour, and a straight step at its end."""
@@ -157,8 +159,8 @@ class _Picture:
         """Whether what looks like a bar is one.
 
         At a side it is. At the top or bottom it is where another side has one of the same colour
-        and about the same width. Alone it has to be a step all along its rim, and to leave
-        something that could be the skyline; and black at the top, where else it could be sky.
+        and about the same width. Alone it has to be a step all along its rim, and to leave edges
+        of which one could be the skyline; and black at the top, where else it could be sky.
         """
         bar = bars[side]
         if bar is None:
@@ -188,9 +190,23 @@ class _Picture:
                 return width
         return 0
 
+    def changes_inside(self, frame: Frame) -> bool:
+        """Whether there is more than one tone in most columns inside a frame."""
+        inside = self.photo[frame.inside(self.photo)]
+        columns = inside[:, :: max(inside.shape[1] // _SAMPLES, 1)]
+        change = np.ptp(columns[BLUR:-BLUR], axis=0).max(axis=1) if len(columns) > 2 * BLUR else 0
+        return bool((np.asarray(change) > TOLERANCE).mean() > MOST)
+
     def crossed_without(self, side: Side, width: int) -> bool:
-        """Whether most columns of the picture have an edge besides that of a bar."""
+        """Whether there could be a skyline without a bar.
+
+        Edges are in most columns then, and not on one level: of straight lines each could be it.
+        """
         inside = self.photo[self.frame.widened(side, width).inside(self.photo)]
         columns = inside[BLUR:-BLUR, :: max(inside.shape[1] // _SAMPLES, 1)].astype(np.int16)
         change = np.abs(columns[2:] - columns[:-2]).max(axis=2)
-        return bool((change.max(axis=0, initial=0) > TOLERANCE).mean() > MOST)
+        crossed = change.max(axis=0, initial=0) > TOLERANCE
+        if crossed.mean() <= MOST:
+            return False
+        levels = change.argmax(axis=0)[crossed]
+        return bool((np.abs(levels - np.median(levels)) > 1).mean() > 1 - MOST)

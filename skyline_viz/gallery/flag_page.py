@@ -124,6 +124,8 @@ def about(entry: Entry) -> tuple[str, str]:
     verdict, details = [], []
     if entry.difference is not None:
         verdict.append(f"{entry.difference:.2f} px from {printable(entry.compared)}")
+    if entry.shows not in (None, "skyline"):
+        verdict.append(str(entry.shows))
     if entry.verdict.a_err is not None:
         verdict += [f"A_err {entry.verdict.a_err:.2f} px", *(entry.causes or ())]
         details.append(f"wrong {entry.wrong}" if entry.wrong else "no column wrong")

@@ -40,8 +40,9 @@ from skyline_viz.viewer.contents import Contents
 from skyline_viz.viewer.diagnosis_recording import log_diagnosis
 from skyline_viz.viewer.recording import log_detection, new_recording
 from skyline_viz.viewer.report import listed_segments
+from skyline_viz.visibility import Case
 
-VERSION = 4
+VERSION = 5
 """Of recordings and gallery.json; all of an earlier one are made anew."""
 
 _SAVE_EVERY = 1.0  # seconds
@@ -75,6 +76,13 @@ class Entry:
     causes: tuple[Cause, ...] | None = None
     """Why it went wrong, see `diagnosis.Diagnosis.causes`; nothing where it is right, None without
     a truth."""
+
+    confidence: float | None = None
+    """How surely it has a skyline, see `visibility.Visibility`; None of methods that cannot
+    tell."""
+
+    shows: Case | None = None
+    """Whether it has one, and whether it is visible everywhere; None like the confidence."""
 
     method: str = "default"
     """Name of the method."""
@@ -231,7 +239,14 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     write_thumbnail(gallery.thumbnail(task.name), photo, detection.skyline, truth)
     photo_file = str(item.photo_path)
     stages = Contents.of(detection, "lean").stages
-    about = {"method": detection.method, "causes": causes, **against}
+    shown = detection.visibility
+    about = {
+        "method": detection.method,
+        "causes": causes,
+        "confidence": detection.confidence,
+        "shows": shown.case if shown else None,
+        **against,
+    }
     height, width = photo.shape[:2]
     return Entry(task.name, photo_file, made_from, height, width, verdict, stages, **about)
 

@@ -105,7 +105,8 @@ def served(
         table.append(**_columns(entries, flags, photos))
         cards = folder / "cards.rbl"
         compared = next((entry.compared for entry in entries), "")
-        _cards(parts.tables, truth, cause, compared).save(_TABLE, cards)
+        told = any(entry.shows for entry in entries)
+        _cards(parts.tables, truth, cause, compared, told).save(_TABLE, cards)
         table.register_blueprint(cards.as_uri())
         address = f"{server.url()}/entry/{table.id}"
         yield ServedGallery(address, gallery, entries, flags, photos, table, client)
@@ -149,6 +150,8 @@ def _schema(index: str) -> pa.Schema:
             pa.field("difference", pa.float32()),
             pa.field("other_a_err", pa.float32()),
             pa.field("margin", pa.float32()),
+            pa.field("confidence", pa.float32()),
+            pa.field("shows", pa.utf8()),
             pa.field("method", pa.utf8()),
             pa.field("wrong", pa.utf8()),
             pa.field("cause", pa.utf8()),
@@ -175,6 +178,8 @@ def _columns(
         "other_a_err": [_rounded(one.other_a_err) for one in entries],
         "method": [shown_in_viewer(shortened(one.method)) for one in entries],
         "margin": [round(entry.verdict.margin, 2) for entry in entries],
+        "confidence": [_rounded(one.confidence) for one in entries],
+        "shows": [one.shows for one in entries],
         "wrong": [entry.wrong or "none" for entry in entries],
         "cause": [None if one.causes is None else one.cause or "none" for one in entries],
         "causes": [None if one.causes is None else ", ".join(one.causes) for one in entries],
@@ -199,6 +204,7 @@ def _cards(
     truth: bool,
     cause: Cause | None,
     compared: str,
+    told: bool,
 ) -> TableBlueprint:
     lines = (entities.PATH, entities.TRUTH, *([entities.ALTERNATIVE] if compared else []))
     thumbnail = rrb.Spatial2DView(
@@ -218,11 +224,16 @@ def _cards(
         against.append(tables.Column("difference", name=name))
     if compared and truth:
         against.append(tables.Column("other_a_err", name="its A_err (px)"))
+    shown = [
+        tables.Column("shows", name="shows"),
+        tables.Column("confidence", name="confidence"),
+    ]
     columns = [
         tables.Column("photo", name="skyline", column_type=tables.PreviewCell(thumbnail)),
         *against,
         *(errors if truth else []),
         tables.Column("margin", name="margin"),
+        *(shown if told else []),
         tables.Column("method", name="by"),
         tables.Column("reviewed", name="reviewed", column_type=rr.components.Flag),
         tables.Column("comment", name="comment"),

@@ -34,7 +34,8 @@ import numpy as np
 from skyline_viz.arrays import F32, U8, Bool, check_photo
 from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import find_edges
-from skyline_viz.methods.frames import without_frame
+from skyline_viz.frames.finding import find_frame
+from skyline_viz.frames.frame import without_frame
 from skyline_viz.system.settings import Configured, Presets
 
 RULED_OUT = 1e4
@@ -74,7 +75,7 @@ class EdgesOnly(Configured):
         check_photo(photo)
         seconds: dict[str, float] = {}
         with timed(seconds, "edges"):
-            inside = without_frame(photo, self.low_threshold, self.high_threshold)
+            inside = without_frame(photo, find_frame(photo))
             edges, _ = find_edges(inside, "grey", self.low_threshold, self.high_threshold)
         with timed(seconds, "cost"):
             below = self.row_cost * np.arange(1, len(edges) + 1, dtype=np.float32) ** 2

@@ -32,7 +32,8 @@ import numpy as np
 from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import to_grey
-from skyline_viz.methods.frames import without_frame
+from skyline_viz.frames.finding import find_frame
+from skyline_viz.frames.frame import without_frame
 from skyline_viz.system.settings import Configured, Presets, within
 
 W1 = 0.9
@@ -65,7 +66,7 @@ class GradientCost(Configured):
         check_photo(photo)
         seconds: dict[str, float] = {}
         with timed(seconds, "cost"):
-            cost = gradient_cost(without_frame(photo), self.w1, self.sigma)
+            cost = gradient_cost(without_frame(photo, find_frame(photo)), self.w1, self.sigma)
         return solve_detection(
             self.name,
             photo,

@@ -44,11 +44,12 @@ from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
 from skyline_viz.datasets.item import Item
 from skyline_viz.detection import Detection, solve_detection, timed
 from skyline_viz.edges import edge_pixels
+from skyline_viz.frames.finding import find_frame
+from skyline_viz.frames.frame import without_frame
 from skyline_viz.method import LearnedMethod, Model, shown_to_learners
 from skyline_viz.methods.descriptors import LENGTH, describe, project
 from skyline_viz.methods.edges_only import RULED_OUT, fill_gaps, ruled_out_but
 from skyline_viz.methods.extras import needed
-from skyline_viz.methods.frames import without_frame
 from skyline_viz.methods.gradient import gradient_cost
 from skyline_viz.methods.stable_edges import stable_edges
 from skyline_viz.skyline import Skyline
@@ -125,7 +126,7 @@ class SiftHog(LearnedMethod):
         weights, bias = self.part("weights"), self.part("bias")
         seconds: dict[str, float] = {}
         with timed(seconds, "edges"):
-            inside = without_frame(photo)
+            inside = without_frame(photo, find_frame(photo))
             edges = stable_edges(inside)
         with timed(seconds, "score"):
             rows, columns = edge_pixels(edges)
@@ -221,7 +222,7 @@ def samples(photo: U8, truth: Skyline, seed: int) -> tuple[F32, Bool]:
     Returns:
         Descriptors ``(n, 452)``, and ``(n,)`` True on those of the skyline.
     """
-    inside = without_frame(photo)
+    inside = without_frame(photo, find_frame(photo))
     rows, columns = edge_pixels(stable_edges(inside))
     away = np.abs(rows - truth.rows[columns])
     seen = truth.visible[columns]

@@ -75,6 +75,11 @@ def try_network(data: bytes, shape: tuple[int, ...], name: str, *, classic: bool
     return digest
 
 
+def survived(digest: str) -> bool:
+    """Whether the network of a digest was survived, as far as this process knows."""
+    return digest in _survived
+
+
 def remember(digest: str) -> None:
     """Take it for granted that the network of this digest was survived."""
     _survived.add(digest)

@@ -11,7 +11,7 @@ from torch.nn import functional
 
 from skyline_viz.arrays import F64
 from skyline_viz.sky_training.examples import Example
-from skyline_viz.sky_training.layers import layered, whole
+from skyline_viz.sky_training.layers import flat, layered, whole
 from skyline_viz.sky_training.network import SkyNet
 from skyline_viz.sky_training.sizes import Size
 from skyline_viz.sky_training.variation import varied
@@ -24,6 +24,9 @@ RATE = 5e-3
 
 NEW = 0.4
 """Share of the photos that are put together from several."""
+
+FLAT = 0.06
+"""Share of those that keep their line, and no more: two flat tones."""
 
 MEMORY = 0.998
 """How slowly the average of the weights, which is what is kept, follows them."""
@@ -92,6 +95,8 @@ def batch(
         if one.line is not None and rng.random() < NEW:
             others = [examples[other] for other in rng.choice(len(examples), 6, p=share)]
             layers = layered(one, others, rng)
+            if rng.random() < FLAT:
+                layers = flat(layers[1], rng)
         else:
             layers = whole(one)
         photo, sky = varied(layers, (size.rows, size.columns), rng)

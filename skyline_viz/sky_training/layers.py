@@ -44,6 +44,15 @@ def layered(near: Example, others: Sequence[Example], rng: np.random.Generator) 
     return mixed.astype(np.float32), (sky * behind).astype(np.float32)
 
 
+def flat(sky: F32, rng: np.random.Generator) -> Layers:
+    """Sky and terrain of one tone each, any two that differ: what is above is the sky."""
+    above, below = rng.random((2, 3))
+    while np.abs(above - below).max() < 0.1:
+        below = rng.random(3)
+    photo = sky[..., None] * above + (1 - sky[..., None]) * below
+    return photo.astype(np.float32), sky
+
+
 def whole(one: Example) -> Layers:
     """An example as it is."""
     return in_unit(one.photo), in_unit(one.sky)

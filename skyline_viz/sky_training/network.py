@@ -41,6 +41,10 @@ class SkyNet(nn.Module):  # type: ignore[misc]  # torch may be missing
         self.stem = nn.Sequential(
             nn.Conv2d(4, widths[0], 3, 2, 1, bias=False), nn.BatchNorm2d(widths[0])
         )
+        # means over what is inside the photo: OpenCV's classic engine knows only those over zeros
+        # around it, too
+        inside = 1 / pooled(torch.ones(1, 1, size.rows, size.columns))
+        self.register_buffer("inside", inside, persistent=False)
         # where in the photo it is, from top to bottom
         slope = torch.linspace(-1, 1, size.rows // 2).view(1, 1, -1, 1)
         self.place = nn.Parameter(slope * torch.randn(1, widths[0], 1, 1) * 0.5)
@@ -55,13 +59,7 @@ class SkyNet(nn.Module):  # type: ignore[misc]  # torch may be missing
     def forward(self, photo: torch.Tensor) -> torch.Tensor:
         """Logits of sky."""
         grey = photo.mean(1, keepdim=True)
-        blocks = functional.avg_pool2d(
-            torch.cat([grey, grey * grey], 1),
-            BLOCK,
-            BLOCK // 2,
-            BLOCK // 4,
-            count_include_pad=False,
-        )
+        blocks = pooled(torch.cat([grey, grey * grey], 1)) * self.inside
         around = functional.interpolate(
             blocks, size=photo.shape[-2:], mode="bilinear", align_corners=False
         )
@@ -77,6 +75,11 @@ class SkyNet(nn.Module):  # type: ignore[misc]  # torch may be missing
             fine = levels.pop()
             coarse = block(torch.cat([wider(coarse, fine), fine], 1))
         return self.out(coarse)
+
+
+def pooled(maps: torch.Tensor) -> torch.Tensor:
+    """Means over overlapping blocks, with zeros around the maps."""
+    return functional.avg_pool2d(maps, BLOCK, BLOCK // 2, BLOCK // 4)
 
 
 def wider(coarse: torch.Tensor, like: torch.Tensor) -> torch.Tensor:

@@ -86,7 +86,7 @@ COMPARISON = "comparison"
 """How the second skyline differs, in Markdown."""
 
 METRICS = "metrics"
-"""`METRICS`/a_err, /worst_error and /margin of each photo, as scalars."""
+"""`METRICS`/a_err, /worst_error, /margin and /confidence of each photo, as scalars."""
 
 TIMINGS = "timings"
 """`TIMINGS`/STAGE: milliseconds of each stage, as scalars."""

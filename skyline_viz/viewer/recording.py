@@ -133,8 +133,8 @@ def log_detection(
     else:
         recording.log(at(entities.TRUTH), rr.Clear(recursive=True))  # an earlier photo's
     log_columns(recording, at, detection, unsure.margins, truth)
-    for metric in ("a_err", "worst_error", "margin"):
-        value = getattr(verdict, metric)
+    metrics = {one: getattr(verdict, one) for one in ("a_err", "worst_error", "margin")}
+    for metric, value in {**metrics, "confidence": detection.confidence}.items():
         if value is not None:
             recording.log(at(f"{entities.METRICS}/{metric}"), rr.Scalars(value))
     for stage, seconds in detection.seconds.items():

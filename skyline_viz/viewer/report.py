@@ -29,6 +29,7 @@ def report(name: str, detection: Detection, verdict: Verdict, shown: int) -> str
         "",
         *_verdict(verdict, height),
         "",
+        *([f"{detection.visibility.said}  "] if detection.visibility else []),
         f"**Margin** {verdict.margin:.3g}, least sure at column {verdict.unsure_column}  ",
         f"**Edges** {edges:,} pixels ({edges / (width * height):.0%})  ",
         *([f"Maps show the {shown:,} cheapest of their columns  "] if shown < edges else []),

@@ -16,11 +16,11 @@ from testing.programs.commands import scene, write_scene
 WITHOUT = DetectorConfig(sky_weight=0.0)
 
 
-def place(name, count, rows=25, *, clips=False):
-    """A source of small photos with a level skyline, two frames a clip."""
+def place(name, count, rows=25, *, truth=None, clips=False):
+    """A source of small photos with a level skyline, two a clip; their truth may be elsewhere."""
     photo = np.full((40, 60, 3), 200, np.uint8)
     photo[rows:] = 60
-    level = Skyline(rows=np.full(60, rows, np.float32))
+    level = Skyline(rows=np.full(60, truth or rows, np.float32))
     items = [LoadedItem(f"{name}{at // 2}-{at}", photo, level) for at in range(count)]
     return Source(name, name, items, 4, clips=clips)
 
@@ -53,6 +53,16 @@ def test_lines_and_causes_of_a_detector_that_needs_no_sky_model():
     assert "| 2/2 |" in web
     assert "| 4 of 2 clips |" in uav
     assert explained(left_out, variant, results).endswith("There are none.")
+
+
+def test_each_gross_miss_is_named_with_its_cause():
+    left_out = LeftOut([place("web", 2), place("uav", 2), place("odd", 2, truth=9)])
+    variant = Variant(WITHOUT_SKY, WITHOUT, Models(None))
+    results = left_out.results(variant)
+    assert table(left_out.sources, results).count("| 2/2 |") == 2
+    lines = explained(left_out, variant, results).splitlines()[4:]
+    assert [line.split(" | ")[0] for line in lines] == ["| odd0-0", "| odd0-1"]
+    assert lines[0].split(" | ")[1:5] == ["16 px", "0 to 59", "16 px", "truth doubtful"]
 
 
 def test_frames_count_as_much_as_their_clips():

@@ -9,6 +9,8 @@ from PIL import Image
 
 import skyline_viz as sv
 from skyline_viz.commands import detect as detect_command
+from skyline_viz.sky_model import SkyModel
+from testing.detections import NoSky
 from testing.programs.commands import HEIGHT, WIDTH, files, scene, write_scene
 
 
@@ -36,6 +38,19 @@ def test_detect_writes_what_is_asked_for(say, tmp_path):
     assert overlay.shape == (HEIGHT, WIDTH, 3)
     line = overlay[found.rows.astype(int), np.arange(WIDTH)]
     assert (line[:, 0] > line[:, 1] + 80).mean() > 0.9  # magenta, as far as JPEG keeps it
+
+
+def test_a_photo_without_a_skyline_is_said_to_be_one(say, tmp_path, monkeypatch):
+    photo = write_scene(tmp_path / "a.png")
+    monkeypatch.setattr(SkyModel, "sky", NoSky.sky)
+    status, out, err = say("detect", photo, "--out", "out")
+    assert (status, err) == (0, "")
+    assert "a: No skyline is visible: there seems to be no sky (confidence 0.0" in out
+    assert len(out.splitlines()) == 2
+    assert not sv.Skyline.read_csv(tmp_path / "out" / "a.csv").visible.any()
+    status, out, err = say("detect", photo, "--out", "out", "--preset", "paper")
+    assert "visible" not in out
+    assert sv.Skyline.read_csv(tmp_path / "out" / "a.csv").visible.all()
 
 
 def test_detect_takes_the_photos_of_a_data_set(say, hills, tmp_path):

@@ -1,4 +1,4 @@
-"""``skyline-viz train --sky-model``: the network that it writes, and what it refuses."""
+"""``skyline-viz train --learn-sky``: the network that it writes, and what it refuses."""
 
 import pytest
 
@@ -6,7 +6,7 @@ from skyline_viz.sky_model import SkyModel
 from testing.deep import needs_deep
 from testing.programs.commands import write_scene, write_scenes
 
-SHORT = ("--sky-model", "small", "--steps", "2", "--out", "sky.onnx")
+SHORT = ("--learn-sky", "small", "--steps", "2", "--out", "sky.onnx")
 
 
 @needs_deep
@@ -21,7 +21,7 @@ def test_a_sky_model_is_written_and_runs(say, hills, tmp_path):
 def test_a_teacher_labels_photos_without_a_truth(say, hills, tmp_path):
     assert say("train", hills, *SHORT)[0] == 0
     write_scene(tmp_path / "bare" / "p0.png", 0)
-    taught = ("--sky-model", "small", "--steps", "1", "--out", "b.onnx", "--teacher", "sky.onnx")
+    taught = ("--learn-sky", "small", "--steps", "1", "--out", "b.onnx", "--teacher", "sky.onnx")
     status, out, _ = say("train", hills, "bare", *taught)
     assert status == 0
     assert "5 of 5" in out
@@ -40,11 +40,11 @@ def test_training_goes_on_past_a_bad_photo(say, tmp_path):
 @pytest.mark.parametrize(
     ("options", "why"),
     [
-        (("--teacher", "t.onnx"), "--sky-model"),
-        (("--steps", "7"), "--sky-model"),
-        (("--sky-model", "small", "--steps", "0"), "1 batch"),
-        (("--sky-model", "small", "--method", "paper"), "--method"),
-        (("--sky-model", "small", "--teacher", "missing.onnx"), "missing.onnx"),
+        (("--teacher", "t.onnx"), "--learn-sky"),
+        (("--steps", "7"), "--learn-sky"),
+        (("--learn-sky", "small", "--steps", "0"), "1 batch"),
+        (("--learn-sky", "small", "--method", "paper"), "--method"),
+        (("--learn-sky", "small", "--teacher", "missing.onnx"), "missing.onnx"),
     ],
     ids=["teacher alone", "steps alone", "no steps", "a method", "no teacher there"],
 )

@@ -32,10 +32,17 @@ def test_a_result_by_hand():
     )
 
 
-def test_a_result_needs_a_visible_column():
+def test_a_result_needs_a_visible_column_of_the_truth():
     blind = sv.Skyline([1, 2], np.array([False, False]))
-    with pytest.raises(sv.SkylineError, match="no column is visible"):
-        PhotoResult.of("a", blind, sv.Skyline([1, 2]), height=9)
+    with pytest.raises(sv.SkylineError, match="visible in no column"):
+        PhotoResult.of("a", sv.Skyline([1, 2]), blind, height=9)
+
+
+def test_a_detection_that_looks_away_is_counted_all_the_same():
+    found = sv.Skyline([1, 2, 3, 9], np.array([True, True, True, False]))
+    one = PhotoResult.of("a", found, sv.Skyline([1, 2, 3, 4]), height=9)
+    assert (one.a_err, one.worst_column, one.called_invisible) == (1.25, 3, 0.25)
+    assert Summary.of([one, PhotoResult.of("b", found, found, height=9)]).called_invisible == 0.125
 
 
 def test_a_summary_by_hand():

@@ -83,7 +83,7 @@ def test_borders_within_borders(seed, outer, inner):
 
 
 @pytest.mark.parametrize("quality", [95, 85, 70, 50])
-@pytest.mark.parametrize("colour", [(0, 0, 0), (16, 16, 16), (255, 255, 255), (60, 90, 160)])
+@pytest.mark.parametrize("colour", [(0, 0, 0), (16, 16, 16), (255, 255, 255), (170, 20, 120)])
 @pytest.mark.parametrize("frame", [Frame(30, 30), Frame(0, 0, 21, 21), Frame(25, 25, 17, 43)])
 def test_bars_of_compressed_photos(scenes, quality, colour, frame):
     for scene in scenes:
@@ -106,10 +106,17 @@ def test_bars_with_text_in_them(scenes, colour):
 
 
 def test_along_dark_ground_a_bar_is_as_wide_as_the_one_across():
-    picture = two_tones(np.full(200, 60), 110, (150, 180, 220), (6, 6, 8))
-    picture[60:, 130:] = noise(50, 70)
+    rows = np.round(55 + 5 * np.sin(np.arange(200) / 20))
+    picture = two_tones(rows, 110, (150, 180, 220), (6, 6, 8))
+    picture[61:, 130:] = noise(49, 70)
     photo = framed(picture, top=23, bottom=23)
     assert find_frame(photo) == Frame(top=23, bottom=23)
+
+
+def test_around_a_soft_picture_too():
+    picture = np.linspace(90, 160, 80)[:, None, None] * np.ones((1, 160, 3))
+    photo = framed(picture.astype(np.uint8), top=20, bottom=20)
+    assert find_frame(photo) == Frame(top=20, bottom=20)
 
 
 # Thin borders
@@ -164,6 +171,15 @@ def test_level_ground_below_a_soft_sky_is_no_bar(ground):
     shade = np.linspace(60, 190, 120)[:, None, None] * np.ones((1, 160, 3))
     photo = shade.astype(np.uint8)
     photo[90:] = ground
+    assert find_frame(photo) == Frame()
+
+
+def test_bands_of_flat_colours_are_no_bars():
+    photo = np.full((120, 160, 3), 220, np.uint8)
+    photo[20:60] = 60
+    assert find_frame(photo) == Frame()
+    assert find_frame(framed(photo, left=30, right=30)) == Frame(30, 30)
+    photo[60:] = 20
     assert find_frame(photo) == Frame()
 
 

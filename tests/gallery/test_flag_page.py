@@ -153,6 +153,8 @@ def test_what_a_detection_came_to_is_said_in_words():
     verdict = Verdict(None, None, None, None, None, 1.234, 7)
     entry = Entry("a", "", "", 60, 70, verdict)
     assert about(entry) == ("", "margin 1.23 at 7 · by default")
+    assert about(replace(entry, shows="no sky", confidence=0.1))[0] == "no sky"
+    assert about(replace(entry, shows="skyline", confidence=0.9))[0] == ""
     right = replace(entry, verdict=replace(verdict, a_err=0.5, segments=()), causes=())
     assert about(right) == ("A_err 0.50 px", "no column wrong · margin 1.23 at 7 · by default")
     wrong = replace(

@@ -80,7 +80,6 @@ def test_the_line_is_straight_and_level(sky, ground, row):
 
 
 @EVERY_TONE
-@pytest.mark.parametrize("colour", [(0, 0, 0), (255, 255, 255), (128, 128, 128)])
 @pytest.mark.parametrize(
     "frame",
     [
@@ -92,12 +91,15 @@ def test_the_line_is_straight_and_level(sky, ground, row):
     ],
     ids=str,
 )
-def test_with_bars(sky, ground, colour, frame):
-    if any(np.abs(np.subtract(colour, tone)).max() < 50 for tone in (sky, ground)):
-        pytest.skip("bars of the colour of the sky or the ground have no end")
+def test_with_bars(sky, ground, frame):
     rows = curve()
-    photo = framed(two_tones(rows, HEIGHT, sky, ground), colour, **frame)
-    assert error(photo, rows, **frame) < 1
+    seen = 0
+    for colour in ((0, 0, 0), (255, 255, 255), (128, 128, 128)):
+        if all(np.abs(np.subtract(colour, tone)).max() >= 50 for tone in (sky, ground)):
+            photo = framed(two_tones(rows, HEIGHT, sky, ground), colour, **frame)
+            assert error(photo, rows, **frame) < 1, colour
+            seen += 1
+    assert seen  # bars of the colour of the sky or the ground have no end
 
 
 @BRIGHT_SKY

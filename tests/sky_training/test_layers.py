@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.sky_training.examples import COLUMNS, ROWS, Example
-from skyline_viz.sky_training.layers import layered
+from skyline_viz.sky_training.layers import flat, layered
 from testing.examples import examples
 
 
@@ -44,3 +44,14 @@ def test_ridges_behind_are_terrain_too():
     rows = [layered(near, [far], rng)[1].sum(axis=0).mean() for _ in range(30)]
     assert min(rows) < 200
     assert max(rows) == pytest.approx(ROWS * 300 / 384, abs=80)
+
+
+def test_two_flat_tones_differ_and_keep_the_line():
+    rng = np.random.default_rng(0)
+    sky = example(150, 40, 200).sky.astype(np.float32) / 255
+    for _ in range(30):
+        photo, same = flat(sky, rng)
+        assert same is sky
+        assert np.ptp(photo[:150], axis=(0, 1)).max() == 0
+        assert np.ptp(photo[150:], axis=(0, 1)).max() == 0
+        assert np.abs(photo[149] - photo[150]).max() > 0.09

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from skyline_viz.sky_model import SkyModel
+from skyline_viz.networks.onnx_files import Network
 from skyline_viz.sky_training.sizes import SIZES, Size
 from testing.deep import needs_deep
 
@@ -33,8 +33,8 @@ def test_a_file_is_as_small_as_it_has_to_be(deep, size):
     assert len(exporting.exported(network.SkyNet(SIZES[size]), {})) <= LIMITS[size]
 
 
-def test_opencv_computes_what_torch_does(deep, tmp_path):
-    """But for half precision."""
+def test_opencv_computes_what_torch_does(deep):
+    """But for half precision; also at the rim, where means are over less."""
     import torch  # noqa: PLC0415
 
     network, exporting = deep
@@ -43,13 +43,12 @@ def test_opencv_computes_what_torch_does(deep, tmp_path):
     with torch.no_grad():  # some statistics other than those of an untrained net
         for _ in range(20):
             net(torch.rand(4, 3, 64, 32))
-    path = tmp_path / "tiny.onnx"
-    path.write_bytes(exporting.exported(net, {}))
-    photo = np.random.default_rng(0).integers(0, 256, (64, 32, 3), np.uint8)
+    opened = Network(exporting.exported(net, {}), "tiny", classic=True)
+    photo = np.random.default_rng(0).random((1, 3, 64, 32), np.float32)
+    photo[:, :, :9] /= 8  # what lies at the rim is not like the rest
     with torch.no_grad():
-        want = torch.sigmoid(net(torch.from_numpy(photo.transpose(2, 0, 1)[None] / 255).float()))
-    found = SkyModel.load(path).sky(photo)
-    np.testing.assert_allclose(found, want[0, 0].numpy(), atol=0.02)
+        want = net(torch.from_numpy(photo)).numpy()
+    np.testing.assert_allclose(opened.run(photo), want, atol=0.02 * np.abs(want).max())
 
 
 def test_a_file_says_where_it_is_from(deep):

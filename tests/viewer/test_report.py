@@ -8,6 +8,7 @@ import skyline_viz as sv
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.viewer.report import listed_segments, report
+from testing.detections import unseen
 from testing.recordings import scene
 
 
@@ -78,3 +79,9 @@ def test_settings_that_differ_are_named():
     assert sv.DetectorConfig().changed() == []
     config = replace(sv.DetectorConfig(), clear_sky=0.0)
     assert config.changed() == ["clear_sky 0"]
+
+
+def test_it_says_whether_there_is_a_skyline(photo):
+    assert "**" not in unseen().detect(photo).visibility.said
+    assert "No skyline is visible: there seems to be no sky" in told(unseen().detect(photo))
+    assert "confidence" not in told(EdgesOnly().detect(photo))

@@ -9,10 +9,12 @@ from hypothesis import strategies as st
 
 from annotate.engine.edits import ORIGINS, EditError, Edits
 from annotate.engine.live_wire import LiveWire
+from skyline_viz.config import DetectorConfig
 from skyline_viz.constraints import Anchor, Constraints, PathError
 from skyline_viz.detector import Detector
 from skyline_viz.path import path_tables, shortest_path
 from skyline_viz.uncertainty import APART
+from testing.detections import unseen
 from testing.examples import examples
 
 DETECTOR = Detector()
@@ -50,7 +52,7 @@ def photo():
 def test_the_proposal_is_the_detection(photo):
     detection = DETECTOR.detect(photo)
     wire = LiveWire(photo, DETECTOR)
-    assert wire.skyline == detection.skyline
+    assert np.array_equal(wire.skyline.rows, detection.skyline.rows)
     np.testing.assert_allclose(wire.margin, detection.margins(), atol=1e-6)
     assert set(wire.origin) == {ORIGINS.index("proposal")}
 
@@ -256,3 +258,12 @@ def test_alternatives_lie_apart_and_cost_what_they_say(height):
             line = wire.preview(column, one.row).rows
             dearer = cost_of(line, cost) - cost_of(wire.skyline.rows, cost)
             assert one.detour == pytest.approx(dearer, abs=1e-3)
+
+
+def test_what_the_detector_doubts_is_a_word_and_hides_nothing(photo):
+    wire = LiveWire(photo, unseen())
+    assert wire.doubt == unseen().detect(photo).visibility.doubt
+    assert wire.skyline.visible.all()
+    assert wire.anchor(30, 20).visible.all()
+    assert LiveWire(photo, None).doubt == ""
+    assert LiveWire(photo, Detector(config=DetectorConfig.paper())).doubt == ""

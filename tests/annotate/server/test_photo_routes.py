@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from testing.detections import unseen
 from testing.labelling import asked, served, write_hills
 
 
@@ -54,3 +55,11 @@ def test_a_blind_photo_has_no_recording(tmp_path):
         assert answer.status_code == 403
         assert "labelled blind" in answer.json()["detail"]
         assert client.get("/api/photos/1/alternatives/3").json() == {"alternatives": []}
+
+
+def test_a_doubted_proposal_is_said_until_somebody_has_worked_on_it(tmp_path):
+    with served(write_hills(tmp_path, count=1), detector=unseen()) as client:
+        shown = client.get("/api/photos/1").json()
+        assert "no sky" in shown["doubt"]
+        assert shown["hidden"] == []
+        assert operate(client, 1, kind="anchor", column=30, row=5)["doubt"] == ""
