@@ -25,7 +25,6 @@ WITHOUT_SKY = "without the sky model"
 WITHOUT = {
     WITHOUT_SKY: {"sky_weight": 0.0},
     "without the clear-sky term": {"clear_sky": 0.0},
-    "without the terrain term": {"terrain_weight": 0.0},
     "without fitted thresholds": {"fit_thresholds": False},
     "with grey edges": {"edge_source": "grey"},
 }

@@ -14,9 +14,8 @@ WITHOUT = {
     "without fitted thresholds": {"fit_thresholds": False},
     "with grey edges": {"edge_source": "grey"},
     "without the clear-sky term": {"clear_sky": 0.0},
-    "without the terrain term": {"terrain_weight": 0.0},
     "without the sky model": {"sky_weight": 0.0},
-    "without all three": {"clear_sky": 0.0, "terrain_weight": 0.0, "sky_weight": 0.0},
+    "without both": {"clear_sky": 0.0, "sky_weight": 0.0},
     "with delta 1": {"delta": 1},
     "with delta 8": {"delta": 8},
 }

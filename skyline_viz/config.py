@@ -1,10 +1,11 @@
 """What can be chosen, with units and the reasons for the defaults. Light to import."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
-from typing import Any, Literal, TypeAlias, get_type_hints
+from typing import Any, Literal, Self, TypeAlias, get_type_hints
 
 from skyline_viz.bins import Bins
+from skyline_viz.system.notes import note
 from skyline_viz.system.settings import (
     SettingError,
     check_number,
@@ -15,6 +16,9 @@ from skyline_viz.system.settings import (
 
 EdgeSource: TypeAlias = Literal["grey", "colour"]
 """What Canny sees: the grey photo, as published, or the colour photo."""
+
+GONE = {"terrain_weight": "the sky model does its work, with the weight sky_weight"}
+"""Settings of earlier versions, and what became of them."""
 
 FILTER_SIZES = (3, 5, 7, 9, 11, 13, 15)
 """Filter sizes that can be trained and applied, in pixels a side."""
@@ -52,22 +56,25 @@ class DetectorConfig:
     clear_sky: float = 0.03
     """Cost that each edge pixel above a pixel adds to it; 0 switches the term off."""
 
-    terrain_weight: float = 4.0
-    """Cost of calling the whole height of a photo sky where it surely looks like terrain, and
-    gain where it surely looks like sky; 0 switches the term off."""
-
     sky_weight: float = 5.0
     """Cost of a line by which the whole height of a photo would be what the sky model finds
     improbable, above and below it; 0 switches the model off."""
 
-    sky_cap: float = 1.5
-    """Cost that the sky model adds to a pixel at the most."""
+    sky_cap: float = 1.0
+    """Cost that the sky model adds to a pixel at the most. An edge pixel pays up to 1 for score
+    and strength, and one without an edge 2: with a limit of 1 the model decides between edges, and
+    never outbids the only one there is."""
 
     delta: int = 4
     """Largest change of row between neighbouring columns, in pixels."""
 
     link_weight: float = 0.1
     """Link cost of one pixel of row change."""
+
+    def __new__(cls, *_: object, **settings: object) -> Self:
+        """Refuse settings that are gone with a sentence that says what became of them."""
+        refuse_gone(settings.keys() - {one.name for one in fields(cls)})
+        return super().__new__(cls)
 
     def __post_init__(self) -> None:
         """Refuse values outside their range with a sentence that names the field."""
@@ -111,7 +118,6 @@ class DetectorConfig:
             strength_percentile=100.0,
             non_edge_cost=3.0,
             clear_sky=0.0,
-            terrain_weight=0.0,
             sky_weight=0.0,
             delta=1,
             link_weight=0.0,
@@ -121,6 +127,29 @@ class DetectorConfig:
     def presets(cls) -> dict[str, "DetectorConfig"]:
         """Configurations that have a name."""
         return {"default": cls(), "paper": cls.paper()}
+
+    @classmethod
+    def from_file(cls, told: Mapping[str, Any], of: str = "") -> Self:
+        """The settings that a file tells, also one of an earlier version: without those gone.
+
+        Args:
+            told: The settings by name.
+            of: What has them, in a note on each that is gone and was not 0; empty for none.
+
+        Raises:
+            TypeError: There is another setting among them.
+            ValueError: One has a value that it refuses.
+
+        Examples:
+            >>> DetectorConfig.from_file({"delta": 1, "terrain_weight": 4.0}).name
+            'default:delta=1'
+        """
+        config = cls(**{name: value for name, value in told.items() if name not in GONE})
+        for name, instead in GONE.items():
+            value = told.get(name, 0)
+            if of and isinstance(value, int | float) and value:
+                note(f"{of} was made with {name} {value:g}, which is gone: {instead}.")
+        return config
 
     @property
     def name(self) -> str:
@@ -171,6 +200,17 @@ class DetectorConfig:
         return replace(self, **changes)
 
 
+def refuse_gone(names: Iterable[str]) -> None:
+    """Refuse names of settings that are gone.
+
+    Raises:
+        SettingError: The message says what became of one.
+    """
+    for name in names:
+        if name in GONE:
+            raise SettingError(f"{name} is gone: {GONE[name]}")
+
+
 _WHOLE = ("frame", "delta")  # numbers of pixels
 
 RANGES: dict[str, tuple[float, float]] = {
@@ -181,7 +221,6 @@ RANGES: dict[str, tuple[float, float]] = {
     "strength_percentile": (1, 100),
     "non_edge_cost": (0, 1e6),
     "clear_sky": (0, 1e3),
-    "terrain_weight": (0, 1e3),
     "sky_weight": (0, 1e3),
     "sky_cap": (0, 1e6),
     "delta": (0, 1e5),

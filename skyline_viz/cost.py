@@ -11,7 +11,6 @@ score       edge pixels                  ``v (1 - score)``
 strength    edge pixels                  ``(1 - v) (1 - strength)``
 no edge     all other pixels             a constant
 clear sky   pixels below edges (ours)    for each edge above, see `terms.ClearSky`
-terrain     all pixels (ours)            for what looks like terrain above, see `terms.Terrain`
 sky         all pixels (ours)            for what the sky model finds improbable, see `terms.Sky`
 link        a line                       for each change of row, see `terms.Link`
 ==========  ===========================  ==========================================================
@@ -40,7 +39,6 @@ from skyline_viz.terms import (
     Places,
     Sky,
     Term,
-    Terrain,
 )
 
 UNKNOWN = np.full((1, 1), 0.5, np.float32)
@@ -70,7 +68,7 @@ class Seen:
     """The settings, which hold the weights."""
 
     bank: FilterBank
-    """The filter bank, which holds the terrain model."""
+    """The filter bank that gave the scores."""
 
 
 def score(seen: Seen) -> EdgeTerm:
@@ -123,25 +121,11 @@ def clear_sky(seen: Seen) -> ClearSky:
     )
 
 
-def terrain(seen: Seen) -> Terrain:
-    """What pixels pay for what looks like terrain above them."""
-    return Terrain(
-        name="terrain",
-        weight=seen.config.terrain_weight if len(seen.scores) else 0.0,  # else all is a guess
-        setting="terrain_weight",
-        colour="#009E73",
-        edges=seen.edges,
-        photo=seen.photo,
-        model=seen.bank.terrain,
-    )
-
-
 def sky(seen: Seen) -> Sky:
     """What pixels pay for what the sky model finds improbable."""
-    asked = seen.sky is not None and len(seen.scores)  # without an edge all is a guess
     return Sky(
         name="sky",
-        weight=seen.config.sky_weight if asked else 0.0,
+        weight=0.0 if seen.sky is None else seen.config.sky_weight,
         setting="sky_weight",
         colour="#D55E00",
         edges=seen.edges,
@@ -150,7 +134,7 @@ def sky(seen: Seen) -> Sky:
     )
 
 
-TERMS: tuple[Callable[[Seen], Term], ...] = (score, strength, no_edge, clear_sky, terrain, sky)
+TERMS: tuple[Callable[[Seen], Term], ...] = (score, strength, no_edge, clear_sky, sky)
 """The terms of our detector, in the order in which they are added up and shown."""
 
 

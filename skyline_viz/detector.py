@@ -225,27 +225,32 @@ class Detector:
             NpzError: It is damaged.
         """
         bank, header = read_bank(file, path), file.header
+        name = "a kept detector" if isinstance(path, bytes) else str(path)
         if "method" not in header:
-            return cls(bank, bank.provenance.settings)
+            trained_for = dict(header.get("bank", header)["provenance"]).get("detector")
+            known = DetectorConfig.from_file(trained_for, name) if trained_for else None
+            return cls(bank, known or bank.provenance.settings)
         label, settings = header.get("label"), header.get("settings")
-        told = isinstance(label, str) and isinstance(settings, dict)
-        if header["method"] != FILTERS or not told:
+        sound = isinstance(label, str) and isinstance(settings, dict)
+        if header["method"] != FILTERS or not sound:
             raise NpzError("its header names no detector")
         others = {name for name in file.arrays if "__" in name} - {NETWORK}
         if further := sorted(others):
             raise NpzError(f"it holds {further[0][:40]}, which this version does not know")
         sky = SkyModel.read(file)
-        known = {**({} if sky else {"sky_weight": 0.0}), **dict(settings or {})}
+        told = {**({} if sky else {"sky_weight": 0.0}), **dict(settings or {})}
         try:
-            return cls(bank, DetectorConfig(**known), str(label), sky or SkyModel.small())
+            config = DetectorConfig.from_file(told, name)
         except (TypeError, ValueError) as error:
             reason = f": {error}" if isinstance(error, ValueError) else ""
             raise NpzError(f"its settings are none of a detector{reason}") from error
+        return cls(bank, config, str(label), sky or SkyModel.small())
 
     def detect(self, photo: U8) -> FilterDetection:
         """Find the skyline of a photo.
 
-        A photo without a single edge gets a level line in the middle; its margins are 0. Where the
+        In a photo without a single edge the line follows the sky model's map. Without a sky model,
+        or where its map says nothing, it is level in the middle, and its margins are 0. Where the
         line cannot be seen, and in photos without a skyline everywhere, it is marked as not
         visible, see `visibility.Visibility`; without a sky model it counts as visible everywhere.
 

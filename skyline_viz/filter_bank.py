@@ -17,7 +17,6 @@ from skyline_viz.files import replacing
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError, Stored, opened
 from skyline_viz.system.settings import plain_number
-from skyline_viz.terrain import FEATURES
 
 EARLIER_FORMAT, EARLIER_VERSION = "skyline-viz filter bank", 1
 """How the header of banks began that were written before detectors were files."""
@@ -28,11 +27,8 @@ STARVED_SAMPLES = 50
 MOST_BYTES = 1 << 26
 """Bytes that a bank may take: a thousand bins of the largest filters take 1 MB."""
 
-_DTYPES = {
-    "filters": np.dtype(np.float32),
-    "samples": np.dtype(np.int64),
-    "terrain": np.dtype(np.float32),
-}
+_DTYPES = {"filters": np.dtype(np.float32), "samples": np.dtype(np.int64)}
+_GONE = {"terrain"}  # arrays that banks of earlier versions have, and nobody needs
 
 
 class FilterBankError(ValueError):
@@ -101,9 +97,6 @@ class FilterBank:
     samples: npt.NDArray[np.int64]
     """``(K,)`` training samples, flipped ones included, that fell into each bin."""
 
-    terrain: F32 = field(default_factory=lambda: np.zeros(FEATURES, np.float32))
-    """``(FEATURES,)`` weights of the block model of sky and terrain; zeros say nothing."""
-
     bins: Bins = field(default_factory=Bins)
     """How a pixel finds its bin; ``K`` is ``bins.count``."""
 
@@ -121,7 +114,6 @@ class FilterBank:
         """Check and freeze the arrays."""
         filters = np.array(self.filters, np.float32)
         samples = np.array(self.samples, np.int64)
-        terrain = np.array(self.terrain, np.float32)
         count = self.bins.count
         if filters.ndim != 3 or filters.shape[0] != count or filters.shape[1] != filters.shape[2]:
             raise FilterBankError(f"{count} bins need filters ({count}, n, n), not {filters.shape}")
@@ -131,11 +123,9 @@ class FilterBank:
             )
         if samples.shape != (count,) or (samples < 0).any():
             raise FilterBankError(f"{count} bins need {count} sample counts of 0 or more")
-        if terrain.shape != (FEATURES,):
-            raise FilterBankError(f"the block model has {FEATURES} weights, not {terrain.shape}")
-        if not (np.isfinite(filters).all() and np.isfinite(terrain).all()):
-            raise FilterBankError("a filter or the block model has a weight that is not finite")
-        for name, array in (("filters", filters), ("samples", samples), ("terrain", terrain)):
+        if not np.isfinite(filters).all():
+            raise FilterBankError("a filter has a weight that is not finite")
+        for name, array in (("filters", filters), ("samples", samples)):
             read_only(array)
             object.__setattr__(self, name, array)
 
@@ -165,7 +155,7 @@ class FilterBank:
 
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
         """The arrays of a file that holds the bank."""
-        return {"filters": self.filters, "samples": self.samples, "terrain": self.terrain}
+        return {"filters": self.filters, "samples": self.samples}
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> "FilterBank":
@@ -222,9 +212,9 @@ def read_bank(file: HeadedNpz, path: str | os.PathLike[str] | bytes) -> FilterBa
         )
     bins, provenance = _described(told)
     _check_announced(file.arrays, bins.count)
-    filters, samples, terrain = (file.read(part) for part in _DTYPES)
+    filters, samples = (file.read(part) for part in _DTYPES)
     try:
-        return FilterBank(filters, samples, terrain, bins, provenance)
+        return FilterBank(filters, samples, bins, provenance)
     except (ValueError, TypeError) as error:
         raise FilterBankError(f"{name} holds no valid filter bank: {error}.") from error
 
@@ -238,7 +228,7 @@ def _described(header: dict[str, Any]) -> tuple[Bins, Provenance]:
     try:
         bins, told = Bins(**header["bins"]), dict(header["provenance"])
         settings = told.pop("detector", None)
-        detector = None if settings is None else DetectorConfig(**settings)
+        detector = None if settings is None else DetectorConfig.from_file(settings)
         kinds = {one.name: type(one.default) for one in fields(Provenance)}
         for name, value in told.items():
             wanted = (int, float) if kinds[name] is float else kinds[name]
@@ -258,7 +248,7 @@ def _check_announced(arrays: Mapping[str, Stored], count: int) -> None:
         NpzError: The message names the array.
     """
     sides = arrays["filters"].shape[-1:] if "filters" in arrays else ()
-    shapes = {"filters": (count, *sides, *sides), "samples": (count,), "terrain": (FEATURES,)}
+    shapes = {"filters": (count, *sides, *sides), "samples": (count,)}
     for name, dtype in _DTYPES.items():
         if name not in arrays:
             raise NpzError(f"its {name} is missing")
@@ -266,5 +256,5 @@ def _check_announced(arrays: Mapping[str, Stored], count: int) -> None:
             raise NpzError(f"its {name} has another type")
         if arrays[name].shape != shapes[name]:
             raise NpzError(f"its {name} has the shape {arrays[name].shape}, not {shapes[name]}")
-    if more := {name for name in arrays if "__" not in name} - set(_DTYPES):
+    if more := {name for name in arrays if "__" not in name} - set(_DTYPES) - _GONE:
         raise NpzError(f"it holds {min(more)[:40]}, which no bank has")

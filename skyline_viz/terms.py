@@ -8,7 +8,6 @@ the terms of our detector, and puts them together.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import ClassVar, Literal, TypeAlias
 
 import cv2
@@ -18,7 +17,6 @@ import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, U8, Bool, Int
 from skyline_viz.edges import edge_index
-from skyline_viz.terrain import BLOCK, terrain_above
 
 Places: TypeAlias = npt.NDArray[np.integer]
 """Rows or columns of pixels ``(k,)``."""
@@ -170,26 +168,6 @@ class ClearSky(Term):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Terrain(Term):
-    """What a pixel pays for what looks like terrain above it; less than nothing for sky."""
-
-    photo: U8
-    """``(H, W, 3)`` uint8 RGB."""
-
-    model: F32
-    """``(FEATURES,)`` weights of the linear model, see `terrain.terrain_above`."""
-
-    @cached_property
-    def above(self) -> F32:
-        """``(h, w)`` how much terrain seems to lie above the centre of each block."""
-        return terrain_above(self.photo, self.edges, self.model)
-
-    def add(self, cost: F32) -> None:
-        """See `Term.add`: between the centres of blocks values are interpolated."""
-        add_blocks(cost, self.above, self.weight, BLOCK)
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
 class Sky(Term):
     r"""What a pixel pays for what the sky model finds improbable if the skyline runs there.
 
@@ -280,18 +258,6 @@ class Link:
         return paid
 
 
-def add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
-    """Add a weighted map of blocks to nodal costs, in place, interpolated between centres.
-
-    Args:
-        cost: ``(H, W)``, columns together in memory as `cost.CostModel.total` gives it.
-        blocks: ``(h, w)`` one value a block.
-        weight: Its weight.
-        side: Side of a block, in pixels.
-    """
-    _add_blocks(cost.T, np.ascontiguousarray(blocks.T), np.float32(weight), side)
-
-
 def add_sky(cost: F32, sky: F32, weight: float, cap: float) -> None:
     """Add what pixels pay for improbable sky and terrain to nodal costs, in place; see `Sky`.
 
@@ -340,23 +306,6 @@ def _add_sky(cost: F32, borders: F32, cap: float) -> None:
             least = min(least, pays[row])
         for row in range(height):
             cost[column, row] += min(pays[row] - least, cap)
-
-
-@numba.njit(cache=True, nogil=True)
-def _add_blocks(cost: F32, blocks: F32, weight: float, side: int) -> None:
-    """`add_blocks` with both arrays column by column, ``(W, H)`` and ``(w, h)``."""
-    width, height = cost.shape
-    left, right, sideways = _between_centres(width, blocks.shape[0], side)
-    above, below, downwards = _between_centres(height, blocks.shape[1], side)
-    line = np.empty(blocks.shape[1], np.float32)
-    for column in range(width):
-        here = blocks[left[column]]
-        there = blocks[right[column]]
-        for block in range(line.size):
-            line[block] = weight * (here[block] + sideways[column] * (there[block] - here[block]))
-        for row in range(height):
-            over = line[above[row]]
-            cost[column, row] += over + downwards[row] * (line[below[row]] - over)
 
 
 @numba.njit(cache=True, nogil=True)

@@ -40,7 +40,6 @@ from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.filter_bank import FilterBank, Provenance
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.tensor import tensor_at
-from skyline_viz.terrain import FEATURES, solve_terrain, terrain_sums
 
 POSITIVE_TARGET = 255.0
 """What a filter should give on the skyline."""
@@ -62,9 +61,6 @@ class GramMatrices:
     weights: F64
     """``(K,)`` for how many samples they count; see `together`."""
 
-    terrain: F64
-    """``(FEATURES + 1, FEATURES + 1)`` sums for the block model of sky and terrain."""
-
     images: int
     """Number of photos."""
 
@@ -82,21 +78,15 @@ class GramMatrices:
 
     def counted(self, factor: float) -> "GramMatrices":
         """The same samples, each of which counts `factor` times."""
-        return replace(
-            self,
-            sums=self.sums * factor,
-            weights=self.weights * factor,
-            terrain=self.terrain * factor,
-        )
+        return replace(self, sums=self.sums * factor, weights=self.weights * factor)
 
     @classmethod
     def empty(cls, config: TrainingConfig) -> "GramMatrices":
         """Sums over no sample."""
         length = config.filter_size**2 + 1
         count = config.bins.count
-        terrain = np.zeros((FEATURES + 1, FEATURES + 1))
         sums = np.zeros((count, length, length))
-        return cls(sums, np.zeros(count, np.int64), np.zeros(count), terrain, 0)
+        return cls(sums, np.zeros(count, np.int64), np.zeros(count), 0)
 
     def __add__(self, other: "GramMatrices") -> "GramMatrices":
         """Sums over both sets of samples."""
@@ -104,7 +94,6 @@ class GramMatrices:
             self.sums + other.sums,
             self.samples + other.samples,
             self.weights + other.weights,
-            self.terrain + other.terrain,
             self.images + other.images,
         )
 
@@ -176,8 +165,7 @@ def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> Gram
     index = config.bins.of(tensor_at(photo, rows, columns))
     patches = _patches(to_grey(photo), rows, columns, config.filter_size)
     sums, samples = _summed(np.column_stack([patches, targets]), index, config.bins)
-    terrain = terrain_sums(photo, edges, truth)
-    return GramMatrices(sums, samples, samples.astype(np.float64), terrain, 1)
+    return GramMatrices(sums, samples, samples.astype(np.float64), 1)
 
 
 def gather_item(config: TrainingConfig, seed: int, item: Item) -> GramMatrices:
@@ -230,7 +218,6 @@ def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = 
     return FilterBank(
         filters=regress(sums, config.smoothness).astype(np.float32),
         samples=gram.samples,
-        terrain=solve_terrain(gram.terrain),
         bins=config.bins,
         provenance=Provenance(
             dataset=dataset,

@@ -22,7 +22,7 @@ CONSULTED = 7000  # of those by which the rules were checked while they were bei
 UNSEEN = 31000  # of those that were first used when the rules stood
 TRIES = 60  # for each case that is asked for
 DETECTOR = WITHOUT_SKY  # which would mend what is injected
-BY_SCORE = replace(DETECTOR.config, v=0.95, clear_sky=0.0, terrain_weight=1.0)
+BY_SCORE = replace(DETECTOR.config, v=0.95, clear_sky=0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +126,7 @@ def bank_without(random, photo, truth, before, samples):
     silent = np.unique(before.bins[near])
     filters, counts = before.bank.filters.copy(), np.maximum(before.bank.samples, 1000)
     filters[silent], counts[silent] = 0, samples
-    bank = FilterBank(filters, counts, before.bank.terrain, before.bank.bins)
+    bank = FilterBank(filters, counts, before.bank.bins)
     return photo, truth, bank, (first, last)
 
 

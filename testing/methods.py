@@ -29,7 +29,6 @@ configurations = st.builds(
     strength_percentile=st.floats(1, 100),
     non_edge_cost=st.floats(0, 1e6),
     clear_sky=st.floats(0, 1e3),
-    terrain_weight=st.floats(0, 1e3),
     sky_weight=st.floats(0, 1e3),
     sky_cap=st.floats(0, 1e6),
     delta=st.integers(0, 100_000),

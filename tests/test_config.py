@@ -10,8 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.bins import Bins
+from skyline_viz.command_line.methods import described
 from skyline_viz.config import FILTER_SIZES, DetectorConfig, TrainingConfig
 from skyline_viz.filter_bank import Provenance
+from skyline_viz.methods.registry import find_method
+from skyline_viz.system.notes import heard_by
 
 RANGES = {
     "low_threshold": (0, 220),
@@ -21,7 +24,6 @@ RANGES = {
     "strength_percentile": (1, 100),
     "non_edge_cost": (0, 1e6),
     "clear_sky": (0, 1e3),
-    "terrain_weight": (0, 1e3),
     "sky_weight": (0, 1e3),
     "sky_cap": (0, 1e6),
     "delta": (0, 100_000),
@@ -36,9 +38,9 @@ def test_defaults_find_colour_edges_and_clear_skies():
     assert (config.low_threshold, config.high_threshold) == (50, 220)
     assert config.v == 0.5
     assert config.clear_sky > 0
-    assert config.terrain_weight > 0
     assert config.sky_weight > 0
-    assert 0 < config.sky_cap < config.non_edge_cost  # it never outbids the only edge there is
+    # the dearest edge costs 1: the sky model never outbids the only one there is
+    assert 0 < config.sky_cap <= config.non_edge_cost - 1
     assert config.delta > 1
     assert config.non_edge_cost > 1
 
@@ -54,7 +56,6 @@ def test_the_published_settings():
         strength_percentile=100,
         non_edge_cost=3,
         clear_sky=0,
-        terrain_weight=0,
         sky_weight=0,
         delta=1,
         link_weight=0,
@@ -70,6 +71,35 @@ def test_every_number_has_a_range():
 def test_both_ends_of_a_range_are_accepted(name):
     for value in RANGES[name]:
         assert getattr(DetectorConfig(**{name: value}), name) == value
+
+
+@pytest.mark.parametrize(
+    "refused",
+    [
+        lambda: DetectorConfig(terrain_weight=0.0),
+        lambda: replace(DetectorConfig(), terrain_weight=0.0),
+        lambda: DetectorConfig().with_settings({"terrain_weight": 0.0}),
+        lambda: find_method("default:terrain_weight=0"),
+        lambda: described(["detect", "a.jpg", "--config.terrain-weight", "0"]),
+        lambda: described(["detect", "a.jpg", "--config.terrain_weight=0"]),
+    ],
+)
+def test_a_setting_that_is_gone_is_refused_and_its_heir_is_named(refused):
+    with pytest.raises(ValueError, match=r"terrain_weight is gone: .* with the weight sky_weight"):
+        refused()
+
+
+@pytest.mark.parametrize(("weight", "notes"), [(4.0, 1), (0.0, 0), (None, 0), ("4", 0)])
+def test_a_setting_that_is_gone_is_left_out_of_a_file_and_that_is_said(weight, notes):
+    heard = []
+    with heard_by(heard.append):
+        told = {"delta": 2, "terrain_weight": weight}
+        assert DetectorConfig.from_file(told, "a.npz") == DetectorConfig(delta=2)
+        assert DetectorConfig.from_file(told) == DetectorConfig(delta=2)
+    assert len(heard) == notes
+    assert all(one.startswith("a.npz was made with terrain_weight 4, which is") for one in heard)
+    with pytest.raises(TypeError, match="slope"):
+        DetectorConfig.from_file({"slope": 1})
 
 
 BAD = [-1, -0.001, 1e9, np.nan, np.inf, -np.inf, None, "1", True, [1]]

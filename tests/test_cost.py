@@ -133,7 +133,7 @@ def test_the_maps_of_the_terms_add_up_to_the_cost(found):
 
 
 def test_a_weight_of_zero_takes_a_term_away(found):
-    for setting, term in (("clear_sky", "clear sky"), ("terrain_weight", "terrain")):
+    for setting, term in (("clear_sky", "clear sky"), ("sky_weight", "sky")):
         without = found.again(replace(found.config, **{setting: 0.0}))
         gone = found.cost - found.cost_model[term].map()
         np.testing.assert_allclose(without.cost, gone, atol=1e-5)
@@ -142,7 +142,7 @@ def test_a_weight_of_zero_takes_a_term_away(found):
 
 def test_the_settings_are_fields_of_the_configuration(found):
     settings = found.cost_model.settings
-    assert {"v", "non_edge_cost", "clear_sky", "terrain_weight", "link_weight"} <= set(settings)
+    assert {"v", "non_edge_cost", "clear_sky", "sky_weight", "link_weight"} <= set(settings)
     assert all(hasattr(found.config, one) for one in settings)
 
 

@@ -13,8 +13,9 @@ import pytest
 import skyline_viz
 from skyline_viz.bins import Bins
 from skyline_viz.config import FILTER_SIZES, DetectorConfig
+from skyline_viz.detector import Detector
 from skyline_viz.filter_bank import STARVED_SAMPLES, FilterBank, FilterBankError, Provenance
-from skyline_viz.terrain import FEATURES
+from skyline_viz.system.notes import heard_by
 from testing.methods import write_bank
 
 SMALL = Bins(2, 2, 1, 0.7, 10, 99)
@@ -35,7 +36,6 @@ def small(**changes):
     fields = {
         "filters": rng.normal(size=(4, 3, 3)),
         "samples": np.array([0, 49, 50, 10**12]),
-        "terrain": rng.normal(size=FEATURES),
         "bins": SMALL,
         "provenance": Provenance("Alpen, Ötztal", 40, 7, "grey", 0.1, "1.2.3"),
     }
@@ -90,12 +90,8 @@ def test_arrays_are_copied_checked_and_frozen():
     bank = small(filters=filters, samples=samples)
     filters[:] = 9
     assert (bank.filters == 1).all()
-    assert (bank.filters.dtype, bank.samples.dtype, bank.terrain.dtype) == (
-        np.float32,
-        np.int64,
-        np.float32,
-    )
-    for array in (bank.filters, bank.samples, bank.terrain):
+    assert (bank.filters.dtype, bank.samples.dtype) == (np.float32, np.int64)
+    for array in (bank.filters, bank.samples):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
     with pytest.raises(AttributeError):
@@ -115,9 +111,8 @@ def test_filter_sizes(size, tmp_path):
     assert FilterBank.load(tmp_path / "a.npz").size == size
 
 
-def test_the_block_model_says_nothing_unless_given():
+def test_bins_are_the_usual_ones_unless_given():
     bank = FilterBank(filters=np.ones((288, 7, 7)), samples=np.zeros(288))
-    assert not bank.terrain.any()
     assert bank.bins == Bins()
 
 
@@ -132,8 +127,6 @@ def test_the_block_model_says_nothing_unless_given():
         ({"filters": np.full((4, 3, 3), np.nan)}, "not finite"),
         ({"samples": [1, 2, 3]}, "4 sample counts"),
         ({"samples": [1, 2, 3, -1]}, "0 or more"),
-        ({"terrain": np.ones(FEATURES - 1)}, f"block model has {FEATURES} weights"),
-        ({"terrain": np.full(FEATURES, np.inf)}, "not finite"),
         ({"bins": Bins()}, "288 bins need filters"),
     ],
 )
@@ -147,7 +140,7 @@ def test_what_is_refused(changes, message):
 
 def test_round_trip(saved):
     bank, again = small(), FilterBank.load(saved)
-    for name in ("filters", "samples", "terrain"):
+    for name in ("filters", "samples"):
         assert getattr(again, name).dtype == getattr(bank, name).dtype
         assert np.array_equal(getattr(again, name), getattr(bank, name))
     assert again.bins == bank.bins
@@ -196,7 +189,6 @@ def test_the_shipped_bank():
     assert bank.bins == Bins()
     assert bank.samples.sum() > 10_000
     assert not bank.starved.all()
-    assert bank.terrain.any()
     assert np.abs(bank.filters).max() < 100
     path = Path(skyline_viz.__file__).with_name("filter_bank.npz")
     assert path.stat().st_size <= 60_000
@@ -274,7 +266,7 @@ def test_any_damaged_byte_is_refused_or_harmless(saved):
     assert found[False] > 2 * found[True]
 
 
-@pytest.mark.parametrize("name", ["header", "filters", "samples", "terrain"])
+@pytest.mark.parametrize("name", ["header", "filters", "samples"])
 def test_nothing_is_unpickled(saved, name):
     flag = saved.with_name("unpickled")
     payload = as_npy(np.array([Marks(flag)], object))
@@ -293,7 +285,7 @@ def test_a_bare_pickle_is_not_unpickled(saved):
     assert not flag.exists()
 
 
-@pytest.mark.parametrize("name", ["header", "filters", "samples", "terrain"])
+@pytest.mark.parametrize("name", ["header", "filters", "samples"])
 def test_a_missing_array(saved, name):
     with_entry(saved, name, None)
     refused(saved)
@@ -315,6 +307,24 @@ def test_a_bank_of_an_earlier_version_is_read(tmp_path):
     assert again.provenance.settings == DetectorConfig(edge_source="grey")
     with_entry(path, "header", header(path, version=2))
     assert "of version 2; this program reads version 1" in refused(path)
+
+
+@pytest.mark.parametrize("terrain", [np.ones(12, np.float32), np.zeros(3)])
+def test_the_terrain_model_of_an_earlier_version_is_passed_over(saved, terrain):
+    told = small().header()["bank"]
+    settings = {"delta": 2, "terrain_weight": 4.0}
+    told["provenance"]["detector"] = settings
+    with_entry(saved, "header", header(saved, bank=told))
+    with_entry(saved, "terrain", as_npy(terrain))
+    heard = []
+    with heard_by(heard.append):
+        again = FilterBank.load(saved)
+        assert Detector.load(saved).config == again.provenance.settings
+    assert np.array_equal(again.filters, small().filters)
+    assert again.provenance.detector == DetectorConfig(delta=2)
+    assert set(again.arrays()) == {"filters", "samples"}
+    (sentence,) = heard
+    assert sentence.startswith(f"{saved} was made with terrain_weight 4, which is gone: ")
 
 
 def test_a_bank_knows_the_settings_it_was_trained_for(tmp_path):
@@ -373,7 +383,6 @@ def test_headers_that_are_no_json_object(saved, text):
         ("filters", np.array("text")),
         ("samples", np.array(["a", "b", "c", "d"])),
         ("samples", np.array([1, 2, 3, -4])),
-        ("terrain", np.zeros(FEATURES + 1)),
     ],
 )
 def test_other_arrays(saved, name, content):

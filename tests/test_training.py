@@ -195,7 +195,6 @@ def test_halves_add_up_to_the_whole(grams):
     for gram in (grams[3], grams[1], grams[0], grams[2]):
         whole += gram
     assert same_sums(halves, whole)
-    assert np.allclose(halves.terrain, whole.terrain)
     assert halves.images == whole.images == 4
     assert (halves.samples >= grams[0].samples).all()
     one, other = solve(halves, 0, CONFIG), train([mountains(seed) for seed in range(4)], 0, CONFIG)
@@ -208,7 +207,7 @@ def test_the_place_in_the_list_does_not_matter(grams):
     examples = [mountains(seed) for seed in range(4)]
     one, other = train(examples, 0, CONFIG), train(examples[::-1], 0, CONFIG)
     assert np.array_equal(one.filters, other.filters)
-    assert np.allclose(one.terrain, other.terrain, atol=1e-4)
+    assert np.array_equal(one.samples, other.samples)
 
 
 def test_a_seed_repeats_the_draw(grams):
@@ -452,11 +451,6 @@ def test_provenance():
     assert found.package
 
 
-def test_the_block_model_is_learned_too():
-    bank = train([mountains(seed) for seed in range(3)], 0, CONFIG)
-    assert np.abs(bank.terrain).max() > 0.1
-
-
 # What is refused
 
 
@@ -490,4 +484,3 @@ def test_the_sums_of_small_filters_are_in_those_of_large_ones(size):
     cropped = largest.cropped(size)
     assert np.array_equal(cropped.sums, own.sums)
     assert np.array_equal(cropped.samples, own.samples)
-    assert np.array_equal(cropped.terrain, own.terrain)

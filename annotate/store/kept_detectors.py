@@ -60,7 +60,8 @@ def unpack(config: str, bank: bytes) -> Method:
     if "method" in settings:
         return load_method(bank)
     before_sky_models = {"sky_weight": 0.0, **settings}
-    return Detector(Detector.load(bank).bank, DetectorConfig(**before_sky_models))
+    config_of_then = DetectorConfig.from_file(before_sky_models, "a kept detector")
+    return Detector(Detector.load(bank).bank, config_of_then)
 
 
 def keep_detector(database: sqlite3.Connection, detector: Method) -> int:

@@ -14,7 +14,7 @@ import tyro
 
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.settings import BankFile, Preset
-from skyline_viz.config import DetectorConfig
+from skyline_viz.config import DetectorConfig, refuse_gone
 from skyline_viz.system.settings import spelt
 
 if TYPE_CHECKING:
@@ -175,6 +175,8 @@ def described(arguments: Sequence[str]) -> Methods:
     'paper'
     """
     words = [word for argument in arguments for word in argument.split("=", 1)]
+    options = [word for word in words if word.startswith("--")]
+    refuse_gone(word.rpartition(".")[2].replace("-", "_") for word in options)
     presets = [after for word, after in pairwise(words) if word == "--preset"]
     banks = [after for word, after in pairwise(words) if word == "--bank"]
     short = ("--preset", "--bank", "--config.", "--sky-model")

@@ -7,7 +7,7 @@ from dataclasses import fields, replace
 from functools import partial
 from typing import Any
 
-from skyline_viz.config import DetectorConfig
+from skyline_viz.config import DetectorConfig, refuse_gone
 from skyline_viz.datasets.item import Item, photo_and_truth
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation.evaluated import Evaluation
@@ -58,6 +58,7 @@ def sweep(
         raise MethodError(f"settings are swept of our own detector, not of {start.name}.")
     known = [one.name for one in fields(start.config)]
     if setting not in known:
+        refuse_gone([setting])
         raise ValueError(f"there is no setting {setting}; there are {', '.join(known)}")
     detectors = {
         f"{setting}={value}": replace(start, config=_with(start.config, setting, value))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from skyline_viz.config import refuse_gone
 from skyline_viz.detector import Detector
 from skyline_viz.filter_bank import FilterBank, FilterBankError
 from skyline_viz.method import Configurable, LearnedMethod, Method, MethodError
@@ -68,6 +69,8 @@ def find_method(text: str) -> Configurable:
             raise MethodError(f"{spec.target} brings what it has learned; leave out {MODEL}.")
         method = _with_model(method, model)
     try:
+        if isinstance(method, Detector):
+            refuse_gone(settings)
         values = from_texts(settings, method.kinds(), spec.target)
         usual = method.settings()
         changed = method.with_settings(values) if values else method

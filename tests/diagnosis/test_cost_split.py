@@ -52,9 +52,9 @@ def test_the_parts_add_up_in_every_column_of_any_line(found, seed):
 def test_our_detector_names_all_its_terms():
     split = split_cost(FOUND[0], SCENE.truth.rows.astype(np.int32))
     edges = ["score", "strength", "no edge"]
-    assert list(split.terms) == [*edges, "clear sky", "terrain", "sky", "link"]
+    assert list(split.terms) == [*edges, "clear sky", "sky", "link"]
     assert (np.abs(split.terms["score"]) <= 1).all()
-    assert split.terms["terrain"].any()
+    assert split.terms["sky"].any()
     assert (split.terms["sky"] >= 0).all()
     assert (split.terms["sky"] <= FOUND[0].config.sky_cap).all()
 

@@ -41,7 +41,7 @@ def test_every_term_is_tried_with_another_weight(photo):
         assert {getattr(one, setting) for one in tried} - {getattr(found.config, setting)}
 
 
-@pytest.mark.parametrize("setting", ["v", "clear_sky", "terrain_weight", "link_weight"])
+@pytest.mark.parametrize("setting", ["v", "clear_sky", "sky_weight", "link_weight"])
 @pytest.mark.parametrize("most", [False, True])
 def test_tried_settings_stay_in_their_range(photo, setting, most):
     config = replace(

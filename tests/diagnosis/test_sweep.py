@@ -16,7 +16,7 @@ SETTINGS = (
     "v",
     "non_edge_cost",
     "clear_sky",
-    "terrain_weight",
+    "sky_weight",
     "link_weight",
     "delta",
 )

@@ -140,7 +140,7 @@ def change_configuration(photos):
 
 def change_bank(photos):
     old = sv.FilterBank.default()
-    return sv.Detector(sv.FilterBank(old.filters * 0.9, old.samples, old.terrain, old.bins))
+    return sv.Detector(sv.FilterBank(old.filters * 0.9, old.samples, old.bins))
 
 
 @pytest.mark.parametrize(

@@ -27,7 +27,7 @@ def test_the_legend_says_what_is_defined_elsewhere(tmp_path):
         legend = client.get("/api/legend").json()
     assert tuple(legend["statuses"]) == STATUSES
     assert tuple(legend["tags"]) == TAGS
-    assert legend["stages"] == [*(one.name for one in OURS), "no edge", "clear sky", "terrain"]
+    assert legend["stages"] == [*(one.name for one in OURS), "no edge", "clear sky"]
     assert {one["name"]: one["says"] for one in legend["formats"]} == TITLES
     assert (legend["tile"], legend["band"]) == (images.TILE, images.BAND)
     assert legend["colours"] == {

@@ -105,7 +105,6 @@ def test_the_header_says_what_the_file_is(tmp_path):
             "header.npy",
             "filters.npy",
             "samples.npy",
-            "terrain.npy",
             "sky__network.npy",
         }
     with np.load(tmp_path / "d.npz") as archive:

@@ -145,9 +145,7 @@ def test_a_file_brings_settings_and_is_called_after_itself(tmp_path, monkeypatch
 
 def test_what_an_earlier_bank_does_not_know_is_said(tmp_path):
     bank = sv.FilterBank.default()
-    made = sv.FilterBank(
-        bank.filters, bank.samples, bank.terrain, bank.bins, type(bank.provenance)(edges="grey")
-    )
+    made = sv.FilterBank(bank.filters, bank.samples, bank.bins, type(bank.provenance)(edges="grey"))
     path, heard = write_bank(made, tmp_path / "old.npz"), []
     with heard_by(heard.append):
         found = sv.find_method(str(path))
