@@ -7,6 +7,7 @@ network that tells sky can take the place, as an ONNX file that fixes the size o
 
 from __future__ import annotations
 
+import json
 import os
 import threading
 from dataclasses import dataclass, field
@@ -20,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32, U8, check_photo
-from skyline_viz.networks.onnx_files import MEAN, STD, Network, read_network, sigmoid
+from skyline_viz.networks.onnx_files import MEAN, STD, Network, read_network, read_notes, sigmoid
 from skyline_viz.networks.trial import digest_of, remember, survived
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
 from skyline_viz.system.settings import MethodError
@@ -34,6 +35,10 @@ standard deviation."""
 
 NETWORK = "sky__network"
 """The array of a file that holds the network."""
+
+TRAINED = "trained"
+"""Name of the note of a file that says what the network was trained on, as JSON: ``photos`` holds
+the number of photos by data set."""
 
 LOGITS = "logit"
 """Name of an output that gives logits; by any other name it gives what its values look like."""
@@ -109,6 +114,15 @@ class SkyModel:
     def said(self) -> str:
         """What it is called in sentences."""
         return f"the sky model {self.name}"
+
+    @cached_property
+    def learned_from(self) -> str:
+        """Names of the data sets that it was trained on, ``", "`` between; empty if not known."""
+        try:
+            trained = json.loads(read_notes(self.network)[TRAINED])
+            return ", ".join(map(str, trained["photos"]))
+        except (ValueError, KeyError, TypeError):
+            return ""  # a network of somebody's
 
     def sky(self, photo: U8) -> F32:
         """How probably each region of a photo is sky, ``(h, w)`` float32 in [0, 1].

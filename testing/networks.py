@@ -21,6 +21,7 @@ def bright_sky(
     sharpness=40.0,
     bias=None,
     colours=(1, 1, 1),
+    notes=None,
 ):
     """A network that calls bright regions of 2 by 2 pixels sky, as the content of its file.
 
@@ -33,6 +34,7 @@ def bright_sky(
         sharpness: How far apart the logits of white and black are.
         bias: The logit of black; minus half the sharpness unless given.
         colours: How much red, green and blue count.
+        notes: What the file says of itself, by name.
     """
     weights = np.full((maps, 3, 2, 2), sharpness / 12, np.float32)
     weights *= np.array(colours, np.float32).reshape(1, 3, 1, 1)
@@ -46,7 +48,11 @@ def bright_sky(
     graph += _field(5, _tensor(b"w", weights)) + _field(5, _tensor(b"b", bias))
     graph += _field(11, _value(taken, (1, 3, rows, columns)))
     graph += _field(12, _value(given, (1, maps, rows // 2, columns // 2)))
-    return _number(1, 8) + _field(7, graph) + _field(8, _number(2, 13))
+    said = b"".join(
+        _field(14, _field(1, name.encode()) + _field(2, note.encode()))
+        for name, note in (notes or {}).items()
+    )
+    return _number(1, 8) + _field(7, graph) + _field(8, _number(2, 13)) + said
 
 
 @cache

@@ -273,3 +273,22 @@ def test_sky_models_stand_in_the_names_of_detectors(tmp_path):
     assert method_digest(both) != method_digest(both.with_settings({"sky": "small"}))
     with pytest.raises(MethodError, match="huge is no sky model: name small, large"):
         find_method("default:sky=huge")
+
+
+# Where it is from
+
+
+def test_a_model_knows_the_data_sets_that_it_learned_from():
+    notes = {sky_model.TRAINED: '{"photos": {"hills": 4, "sea": 2}}'}
+    assert SkyModel("known", bright_sky(notes=notes)).learned_from == "hills, sea"
+
+
+@pytest.mark.parametrize("note", ["", "{", "[]", '{"photos": 3}', "{}"])
+def test_what_is_said_in_another_way_is_not_known(note):
+    notes = {sky_model.TRAINED: note}
+    assert SkyModel("other", bright_sky(notes=notes)).learned_from == ""
+    assert SkyModel("other", bright_sky()).learned_from == ""
+
+
+def test_the_shipped_models_tell():
+    assert "mountains" in SkyModel.small().learned_from.split(", ")

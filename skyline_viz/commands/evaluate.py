@@ -64,11 +64,15 @@ class Evaluate(OnTruth):
         """What is to be tested and how; says so where that was trained on these very photos."""
         folds = f"{self.folds}-fold cross-validation" if self.folds else ""
         chosen = self.methods.chosen(to_train=bool(self.folds))
-        if not folds:
-            for one in chosen:
-                learned = methods.learned_from(one)
-                if dataset in (learned, *learned.split(", ")):
-                    say(f"{one.name} was trained on {dataset}, so this is no test; see --folds.")
+        for one in chosen:
+            learned = methods.learned_from(one)
+            if not folds and dataset in (learned, *learned.split(", ")):
+                say(f"{one.name} was trained on {dataset}, so this is no test; see --folds.")
+            elif dataset in sky_learned_from(one).split(", "):
+                say(
+                    f"the sky model of {one.name} was trained on {dataset}, also on the photos "
+                    f"that it is tested on; sky_weight=0 does without."
+                )
         if len(chosen) > 1:
             return chosen, folds or "as they are"
         (one,) = chosen
@@ -76,6 +80,14 @@ class Evaluate(OnTruth):
             return chosen, f"{one.name}, {folds or 'as it is'}"
         learned = methods.learned_from(one)
         return chosen, folds or f"filter bank trained on {learned or 'an unnamed data set'}"
+
+
+def sky_learned_from(method: Method) -> str:
+    """Names of the data sets that the sky model of a method was trained on; empty without one."""
+    from skyline_viz.detector import Detector
+
+    runs = isinstance(method, Detector) and method.config.sky_weight
+    return method.sky.learned_from if runs else ""
 
 
 def _print(title: str, found: Evaluation) -> None:

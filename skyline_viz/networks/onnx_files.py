@@ -33,7 +33,7 @@ STD = (0.229, 0.224, 0.225)
 _USUAL = 256  # rows and columns to try a network with
 _LARGEST_INPUT = 3 * 150_000_000  # numbers of an input: the largest photo, in three colours
 _MOST_FIELDS = 2_000_000  # of a message
-_GRAPH, _INITIALIZER, _INPUT, _OUTPUT = 7, 5, 11, 12
+_GRAPH, _INITIALIZER, _INPUT, _OUTPUT, _NOTES = 7, 5, 11, 12, 14
 _INTEGERS = frozenset({2, 3, 4, 5, 6, 7, 9, 12, 13})  # element types of ONNX, bool among them
 
 
@@ -78,6 +78,16 @@ def read_header(data: bytes) -> Header:
         elif number == _OUTPUT:
             outputs.append(_value(part))
     return Header(tuple(one for one in inputs if one.name not in weights), tuple(outputs))
+
+
+def read_notes(data: bytes) -> dict[str, str]:
+    """What an ONNX file says of itself, by name.
+
+    Raises:
+        ValueError: It is no ONNX file.
+    """
+    notes = (part for number, part in _fields(memoryview(data)) if number == _NOTES)
+    return {_text(_first(one, 1)): _text(_first(one, 2)) for one in notes}
 
 
 def read_network(path: Path) -> bytes:

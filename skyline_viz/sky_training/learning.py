@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterable
 
 from skyline_viz._version import __version__
+from skyline_viz.sky_model import TRAINED
 from skyline_viz.sky_training.examples import Example
 from skyline_viz.sky_training.exporting import exported
 from skyline_viz.sky_training.fitting import Progress, fit
@@ -40,4 +41,4 @@ def learn(
         sources[one.source] = sources.get(one.source, 0) + 1
     net = fit(known, SIZES[size], steps=steps, seed=seed, progress=progress)
     about = {"size": size, "steps": steps, "seed": seed, "skyline-viz": __version__}
-    return exported(net, {"trained": json.dumps({"photos": sources, **about})})
+    return exported(net, {TRAINED: json.dumps({"photos": sources, **about})})

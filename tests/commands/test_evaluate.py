@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
+from skyline_viz.sky_model import TRAINED
+from testing.networks import bright_sky
 from testing.programs.commands import files, write_scenes
 
 
@@ -19,7 +21,7 @@ def test_evaluate_prints_and_writes(say, hills, tmp_path):
     assert summary["summary"]["default"]["photos"] == 4
     settings = summary["settings"]["default"]
     assert settings["config"]["delta"] == sv.DetectorConfig().delta
-    assert settings["bank"]["images"] == 40
+    assert settings["bank"]["images"] == sv.FilterBank.default().provenance.images
     with (tmp_path / "report" / "photos.csv").open(newline="") as file:
         lines = list(csv.DictReader(file))
     assert [line["name"] for line in lines] == ["p0", "p1", "p2", "p3"]
@@ -45,6 +47,15 @@ def test_testing_on_the_training_photos_is_noticed(say, hills):
     assert err == said
     assert say("evaluate", hills, "--bank", "b.npz", "--method", "edges")[2] == said
     assert say("evaluate", hills, "--method", "edges", "b.npz")[2] == said
+
+
+def test_a_sky_model_that_saw_the_photos_is_noticed_in_folds_too(say, hills, tmp_path):
+    notes = {TRAINED: '{"photos": {"hills": 4}}'}
+    (tmp_path / "sky.onnx").write_bytes(bright_sky(notes=notes))
+    saw = "the sky model of default:sky=sky.onnx was trained on hills"
+    assert saw in say("evaluate", hills, "--sky", "sky.onnx", "--folds", "2")[2]
+    assert saw in say("evaluate", hills, "--sky", "sky.onnx")[2]
+    assert say("evaluate", hills, "--method", "default:sky_weight=0", "--folds", "2")[2] == ""
 
 
 def test_an_evaluation_lists_failures(say, tmp_path):

@@ -17,9 +17,11 @@ from skyline_viz.networks.onnx_files import (
     padded,
     read_header,
     read_network,
+    read_notes,
 )
 from testing.deep import needs_deep
 from testing.harm import small_network
+from testing.networks import bright_sky
 
 
 @needs_deep
@@ -40,6 +42,11 @@ def test_a_file_that_was_cut_or_changed_is_a_header_or_an_error(cut, byte):
             read_header(harmed)
         except ValueError:
             continue
+
+
+def test_a_file_says_things_of_itself():
+    assert read_notes(bright_sky(notes={"a": "one", "b": ""})) == {"a": "one", "b": ""}
+    assert read_notes(bright_sky()) == {}
 
 
 @pytest.mark.parametrize("content", [b"", b"hello", b"\x80" * 20, b"\x3a\x7f"])
