@@ -16,7 +16,6 @@ from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.files import replacing
-from skyline_viz.sky_model import SkyModel
 from skyline_viz.sky_training.sizes import STEPS, SizeName
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
@@ -129,6 +128,8 @@ class Train:
             raise UsageError("--method, --preset and --training are for filters, not sky models.")
         if self.steps < 1:
             raise UsageError(f"a sky model sees 1 batch or more, not {self.steps}.")
+        from skyline_viz.sky_model import SkyModel
+
         teacher = SkyModel.load(self.teacher) if self.teacher else None
         sets, photos = self._sets(all_photos=teacher is not None)
         output_folder(self.out.parent, ())

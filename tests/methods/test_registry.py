@@ -87,7 +87,9 @@ def test_a_filter_bank_is_a_method(tmp_path):
     sv.FilterBank.default().save(tmp_path / "bank.npz")
     method = find_method(str(tmp_path / "bank.npz"))
     assert isinstance(method, Detector)
-    assert model_bytes(method) == method.bank.filters.nbytes
+    assert model_bytes(method) == method.bank.filters.nbytes + len(method.sky.network)
+    without = method.with_settings({"sky_weight": 0.0})
+    assert model_bytes(without) == method.bank.filters.nbytes
 
 
 def test_a_method_comes_back_from_its_file(tmp_path):

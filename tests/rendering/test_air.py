@@ -3,7 +3,7 @@
 import numpy as np
 
 from skyline_viz.rendering.air import Bank, Glow, Overcast, Stars, draw_air
-from testing.pictures import HORIZON, SKY, dice, level, noise
+from testing.level_ground import HORIZON, SKY, dice, level, noise
 
 WHITE, GREY = (1.0, 1.0, 1.0), (0.4, 0.4, 0.4)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from skyline_viz.rendering.built import Houses, Wires, draw_built
-from testing.pictures import HORIZON, SUN, dice, level, noise
+from testing.level_ground import HORIZON, SUN, dice, level, noise
 
 
 def drawn(spec, seed=1):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from skyline_viz.rendering.people import People, draw_people
-from testing.pictures import HORIZON, SUN, dice, level, noise
+from testing.level_ground import HORIZON, SUN, dice, level, noise
 
 
 def drawn(spec, seed=1):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from skyline_viz.rendering.plants import Branches, Trees, draw_branches, draw_trees
-from testing.pictures import HORIZON, SUN, dice, level, noise
+from testing.level_ground import HORIZON, SUN, dice, level, noise
 
 
 @pytest.mark.parametrize("shape", ["conifer", "crown", "bare"])

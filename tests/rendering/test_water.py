@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from skyline_viz.rendering.water import Water, draw_water
-from testing.pictures import SUN, level, noise
+from testing.level_ground import SUN, level, noise
 
 
 def drawn(spec, horizon=80):

@@ -105,9 +105,11 @@ def test_the_header_says_what_the_file_is(tmp_path):
             "header.npy",
             "filters.npy",
             "samples.npy",
+            "sky__network.npy",
         }
     with np.load(tmp_path / "d.npz") as archive:
         header = json.loads(archive["header"].tobytes())
     assert (header["format"], header["version"]) == ("skyline-viz", 2)
     assert (header["method"], header["label"]) == ("filters", "steep")
     assert header["settings"]["delta"] == 4
+    assert header["sky"] == "small"
