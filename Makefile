@@ -66,6 +66,18 @@ bank: .venv/.installed-run  ## Train the shipped filter bank; DATA=FOLDER names 
 	.venv/bin/skyline-viz train "$(DATA)/web_dataset" "$(DATA)/mountains" "$(DATA)/uav" $(SCENES) \
 	    --out skyline_viz/filter_bank.npz
 
+SKY_SCENES = build/sky-scenes
+LEARN_SKY = .venv/bin/skyline-viz train "$(DATA)/web_dataset" "$(DATA)/mountains" "$(DATA)/uav" $(SKY_SCENES) \
+    "$(DATA)/phone_unlabelled" "$(DATA)/webcam" --teacher "$(TEACHER)" --workers 1
+
+sky: .venv/.installed-dev  ## Train the shipped sky models; DATA=FOLDER as for bank, TEACHER=FILE.onnx knows what is sky.
+	.venv/bin/skyline-viz render --kind all --camera any --seed 1000 --count 30 --width 480 --height 320 \
+	    --out $(SKY_SCENES)
+	.venv/bin/skyline-viz render --kind all --camera any --seed 2000 --count 20 --width 360 --height 480 \
+	    --out $(SKY_SCENES)
+	$(LEARN_SKY) --learn-sky small --out skyline_viz/sky_small.onnx
+	$(LEARN_SKY) --learn-sky large --steps 2200 --out skyline_viz/sky_large.onnx
+
 LOCK = .venv/bin/uv pip compile --quiet $(if $(UPGRADE),--upgrade) --universal --python-version 3.11 --generate-hashes \
     --no-emit-index-url --no-header pyproject.toml --group build
 

@@ -32,5 +32,5 @@ SIZES: dict[SizeName, Size] = {
 }
 """By name."""
 
-STEPS = 5000
+STEPS = 6000
 """Batches that a model sees unless told otherwise."""
