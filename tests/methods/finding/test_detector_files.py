@@ -106,7 +106,6 @@ def test_the_header_says_what_the_file_is(tmp_path):
             "filters.npy",
             "samples.npy",
             "sky__network.npy",
-            "sky__network.npy",
         }
     with np.load(tmp_path / "d.npz") as archive:
         header = json.loads(archive["header"].tobytes())
