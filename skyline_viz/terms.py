@@ -309,15 +309,15 @@ def _add_sky(cost: F32, borders: F32, cap: float) -> None:
 
 
 @numba.njit(cache=True, nogil=True)
-def _between_centres(length: int, blocks: int, side: float) -> tuple[Int, Int, F32]:
-    """For each pixel of an axis the blocks before and after it, and how far it is on the way."""
+def _between_centres(length: int, regions: int, side: float) -> tuple[Int, Int, F32]:
+    """For each pixel of an axis the regions before and after it, and how far it is on the way."""
     before = np.empty(length, np.int32)
     after = np.empty(length, np.int32)
     share = np.empty(length, np.float32)
     for pixel in range(length):
-        place = min(max((pixel + 0.5) / side - 0.5, 0.0), blocks - 1.0)
+        place = min(max((pixel + 0.5) / side - 0.5, 0.0), regions - 1.0)
         before[pixel] = int(place)
-        after[pixel] = min(before[pixel] + 1, blocks - 1)
+        after[pixel] = min(before[pixel] + 1, regions - 1)
         share[pixel] = place - before[pixel]
     return before, after, share
 

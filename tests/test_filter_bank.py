@@ -111,11 +111,6 @@ def test_filter_sizes(size, tmp_path):
     assert FilterBank.load(tmp_path / "a.npz").size == size
 
 
-def test_bins_are_the_usual_ones_unless_given():
-    bank = FilterBank(filters=np.ones((288, 7, 7)), samples=np.zeros(288))
-    assert bank.bins == Bins()
-
-
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
@@ -312,8 +307,7 @@ def test_a_bank_of_an_earlier_version_is_read(tmp_path):
 @pytest.mark.parametrize("terrain", [np.ones(12, np.float32), np.zeros(3)])
 def test_the_terrain_model_of_an_earlier_version_is_passed_over(saved, terrain):
     told = small().header()["bank"]
-    settings = {"delta": 2, "terrain_weight": 4.0}
-    told["provenance"]["detector"] = settings
+    told["provenance"]["detector"] = {"delta": 2, "terrain_weight": 4.0}
     with_entry(saved, "header", header(saved, bank=told))
     with_entry(saved, "terrain", as_npy(terrain))
     heard = []

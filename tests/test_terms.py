@@ -15,7 +15,6 @@ from skyline_viz.terms import (
     NoEdge,
     Sky,
     Term,
-    add_blocks,
 )
 from testing.examples import examples
 
@@ -119,38 +118,6 @@ def test_columns_outside_the_photo_are_no_clear_sky():
     added = clear_sky(edges, 0.5)
     assert np.allclose(added[5:], 0.5)
     assert (added[:5] == 0).all()
-
-
-# Blocks
-
-
-def slow_blocks(blocks, height, width, side):
-    """Values of blocks interpolated between their centres, repeated beyond the outer ones."""
-    rows = np.arange(len(blocks)) * side + (side - 1) / 2
-    columns = np.arange(blocks.shape[1]) * side + (side - 1) / 2
-    downwards = np.array([np.interp(np.arange(height), rows, column) for column in blocks.T])
-    return np.array([np.interp(np.arange(width), columns, row) for row in downwards.T])
-
-
-@pytest.mark.parametrize(
-    ("height", "width", "side", "down", "right"),
-    [(32, 40, 8, 4, 5), (35, 46, 8, 4, 5), (5, 6, 8, 1, 1), (9, 8, 4, 2, 2), (8, 31, 8, 1, 3)],
-)
-def test_blocks_are_interpolated_between_their_centres(height, width, side, down, right):
-    rng = np.random.default_rng(height)
-    blocks = rng.normal(size=(down, right)).astype(np.float32)
-    cost = rng.random((width, height)).astype(np.float32).T
-    before = cost.copy()
-    add_blocks(cost, blocks, 3.0, side)
-    expected = 3 * slow_blocks(blocks, height, width, side)
-    assert cost.shape == (height, width)
-    assert np.allclose(cost - before, expected, atol=1e-4)
-
-
-def test_blocks_of_one_value_move_every_pixel_alike():
-    cost = np.full((30, 20), 2, np.float32).T
-    add_blocks(cost, np.full((2, 3), -0.25, np.float32), 2.0, 8)
-    assert np.allclose(cost, 1.5)
 
 
 # Sky
