@@ -278,18 +278,13 @@ class FilterDetection(Detection):
         return starved
 
     def _stages(self) -> Iterator[Stage]:
-        whole = cache(partial(tensor_map, self.photo))  # one for all three
         if self.sky is not None:
             yield Stage(SKY, self._sky_map, "photo")
         yield Stage(EDGES, self.edges, "mask")
-        for quantity in (STRENGTH, COHERENCE, ORIENTATION):
-            name = quantity.name
-            yield Stage(
-                quantity,
-                getattr(self, name),
-                "edges",
-                dense=lambda name=name: getattr(whole(), name),  # type: ignore[misc]  # default
-            )
+        whole = cache(partial(tensor_map, self.photo))  # one for all three
+        for one in (STRENGTH, COHERENCE, ORIENTATION):
+            dense = partial(lambda name: getattr(whole(), name), one.name)
+            yield Stage(one, getattr(self, one.name), "edges", dense=dense)
         yield Stage(BIN, self.bins, "edges", legend=bin_legend(self.bank.bins))
         yield Stage(SCORE, self.scores, "edges")
         yield from self._last_stages()
