@@ -86,8 +86,9 @@ def sky_learned_from(method: Method) -> str:
     """Names of the data sets that the sky model of a method was trained on; empty without one."""
     from skyline_viz.detector import Detector
 
-    runs = isinstance(method, Detector) and method.config.sky_weight
-    return method.sky.learned_from if runs else ""
+    if isinstance(method, Detector) and method.config.sky_weight:
+        return method.sky.learned_from
+    return ""
 
 
 def _print(title: str, found: Evaluation) -> None:
