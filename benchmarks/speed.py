@@ -6,14 +6,18 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import cv2
+import numpy as np
 
 from benchmarks.table import markdown
 from skyline_viz import Detector, open_dataset, read_photo, train, write_photo
 from skyline_viz.arrays import U8
+from skyline_viz.networks.onnx_files import Network
 from skyline_viz.photo import find_photos
+from skyline_viz.sky_model import SHIPPED, SkyModel
 
 REPEATS = 7
 
@@ -34,6 +38,7 @@ def measured(web: Path | None, samples: Path) -> str:
     items = list(open_dataset(folder))
     photos = [item.photo() for item in items]
     parts = [f"## Speed, on {len(photos)} photographs of `{folder.name}`", _ratios(photos)]
+    parts.append(_sky(photos))
     large = find_photos(web.parent / "new_dataset") if web and web.is_dir() else []
     parts.append(_growth(photos, [read_photo(path) for path in large]))
     with tempfile.TemporaryDirectory() as scratch:
@@ -82,6 +87,25 @@ def _ratios(photos: list[U8]) -> str:
         f"{REPEATS} each, median over the photos (range {min(ratios):.1f} to {max(ratios):.1f}; "
         f"median {statistics.median(edges):,.0f} edge pixels):\n\n{table}"
     )
+
+
+def _sky(photos: list[U8]) -> str:
+    """The sky models alone, from the photo to the map, and their networks without all else."""
+    rows = []
+    for name in SHIPPED:
+        model = SkyModel.named(name)
+        network = Network(model.network, name, classic=True)
+        blob = np.zeros(network.header.inputs[0].shape, np.float32)
+        whole, alone = [], []
+        for photo in photos:
+            grey = cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY)
+            canny = _best(lambda image=grey: cv2.Canny(image, 50, 220))
+            whole.append(_best(partial(model.sky, photo)) / canny)
+            alone.append(_best(partial(network.run, blob)) / canny)
+        cells = [f"{statistics.median(one):.2f}" for one in (whole, alone)]
+        rows.append([name, *cells, f"{len(model.network) / 1e3:.0f} kB"])
+    table = markdown(["multiple of Canny", "photo to map", "network alone", "file"], rows)
+    return f"The sky models, as multiples of the same `cv2.Canny`:\n\n{table}"
 
 
 def _growth(photos: list[U8], large: list[U8]) -> str:
