@@ -19,7 +19,7 @@ def test_evaluate_prints_and_writes(say, hills, tmp_path):
     assert summary["summary"]["default"]["photos"] == 4
     settings = summary["settings"]["default"]
     assert settings["config"]["delta"] == sv.DetectorConfig().delta
-    assert settings["bank"]["images"] == 40
+    assert settings["bank"]["images"] == 450
     with (tmp_path / "report" / "photos.csv").open(newline="") as file:
         lines = list(csv.DictReader(file))
     assert [line["name"] for line in lines] == ["p0", "p1", "p2", "p3"]
