@@ -71,7 +71,7 @@ def test_one_photo_leaves_the_report_of_the_data_set(tmp_path, capsys):
 def test_the_command_tells_one_photo_in_full(capsys):
     assert main(["diagnose", str(SAMPLES), "--photo", "hazy-1"]) == 0
     out = capsys.readouterr().out
-    assert out.startswith("hazy-1  A_err 132.88 px")
+    assert out.startswith("hazy-1  A_err 132.97 px")
     assert "the truth costs more than the path by: score" in out
     assert main(["diagnose", str(SAMPLES), "--photo", "nobody"]) == 2
     assert "has no photo nobody" in capsys.readouterr().err

@@ -83,7 +83,7 @@ def card(page, name):
 def test_the_worst_come_first_with_a_picture_and_a_verdict(window):
     page = window()
     assert page.locator("h2").all_inner_texts() == NAMES
-    assert card(page, "hazy-1").locator(".verdict").inner_text() == "A_err 132.88 px · cheaper path"
+    assert card(page, "hazy-1").locator(".verdict").inner_text() == "A_err 132.97 px · cheaper path"
     assert page.evaluate("[...document.images].every((one) => one.complete && one.naturalWidth)")
     assert page.locator("#count").inner_text() == "0 of 3 reviewed"
 

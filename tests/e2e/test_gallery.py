@@ -86,7 +86,7 @@ def test_cards_tell_what_people_said_and_lead_inside(built):
             until(lambda: says(robot, "said meanwhile"))
             robot.do("click", content_contains="hazy-1", role="Label")
             until(lambda: viewer.get_state().views)
-            until(lambda: says(robot, "A_err 132.88") or says(robot, "132.88 px"))
+            until(lambda: says(robot, "A_err 132.97") or says(robot, "132.97 px"))
             assert tab_names(viewer)[-1] == "Diagnosis"
             show_tab(viewer, "Diagnosis")
             until(lambda: says(robot, "cheaper path"))

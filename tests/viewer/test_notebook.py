@@ -75,6 +75,6 @@ def test_the_example_notebook_runs():
     views = [
         one for one in outputs if "application/vnd.jupyter.widget-view+json" in one.get("data", {})
     ]
-    assert "A_err 132.88 px" in "".join(texts)
+    assert "A_err 132.97 px" in "".join(texts)
     assert len(views) >= 2
     assert not [one for one in outputs if one["output_type"] == "error"]
