@@ -20,7 +20,7 @@ WITHOUT_SKY = Detector(config=DetectorConfig(sky_weight=0.0))
 
 def hazy():
     """The detection of a scene whose ridge is lost in haze, and its truth."""
-    scene = render("hazy", 1)
+    scene = render("hazy", 2)
     return WITHOUT_SKY.detect(scene.photo), scene.truth
 
 

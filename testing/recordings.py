@@ -101,6 +101,20 @@ class Read:
         return told[self.classes(entity)]
 
 
+def drawn_rows(strips, width):
+    """``(W,)`` row of the line that strips draw; NaN in columns that they leave out."""
+    rows = np.full(width, np.nan)
+    for strip in strips:
+        across, down = np.array(strip).T
+        rows[np.floor(across).astype(int)] = down
+    return rows
+
+
+def visible_rows(skyline):
+    """``(W,)`` row of a skyline; NaN where it is not visible."""
+    return np.where(skyline.visible, skyline.rows, np.nan)
+
+
 def scene(height=90, width=120, noise=6, seed=0):
     """A photo of a ridge with noise, and its truth."""
     generator = np.random.default_rng(seed)

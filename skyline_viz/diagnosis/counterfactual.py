@@ -157,14 +157,17 @@ class Case:
     def excursion(self, first: int, last: int, rows: Int | None = None) -> tuple[int, int]:
         """Columns from where a line leaves the truth to where it is back, around wrong ones.
 
-        What drew the path away may lie in columns where it is not yet off by the tolerance.
+        What drew the path away may lie in columns where it is not yet off by the tolerance. A path
+        that may not change its row never makes up for what it is off, so with a ``delta`` of 0 it
+        leaves the truth as soon as it is off at all.
 
         Args:
             first: First wrong column.
             last: Last wrong column.
             rows: ``(W,)`` the line; the path unless given.
         """
-        away = self.away(self.path_rows if rows is None else rows)
+        off = np.abs((self.path_rows if rows is None else rows) - self.rows)
+        away = off > (self.near if self.detection.delta else 0)
         there = np.flatnonzero(~away[: first + 1])
         back = np.flatnonzero(~away[last:])
         start = int(there[-1]) + 1 if len(there) else 0

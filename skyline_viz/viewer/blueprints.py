@@ -1,7 +1,7 @@
 """How the viewer lays a recording out: first the answer, then the stages, then the details.
 
 - *Skyline*: where is the line, and is it right?
-- *Stages*: the paper's figure 1, (a) to (f).
+- *Stages*: the paper's figure 1 and the sky, (a) to (g).
 - *Tensor*: what picks the filter.
 - *Terms*: what each pixel pays for each term of the nodal cost.
 - *Filter bank*: the filters, and which of them the path used.

@@ -19,7 +19,7 @@ from skyline_viz.skyline import Skyline
 from skyline_viz.stage import DETOUR, OURS, Quantity, Stage, of_term
 from skyline_viz.terms import Term
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.value_maps import COARSE, FINE, dense_map, sparse_map
+from skyline_viz.viewer.value_maps import BANDS, COARSE, FINE, dense_map, sparse_map
 
 _RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
 
@@ -59,7 +59,7 @@ def log_maps(
         if stage.where == "mask":
             recording.log(entity, encoded_edges(np.asarray(stage.values, np.bool_)))
         elif stage.where == "photo" and stage.quantity.smooth:  # whole even if lean
-            levels = FINE if shown is None else COARSE
+            levels = FINE if shown is None else BANDS
             dense_map(stage.quantity, stage.values, levels).log(recording, entity)
         elif stage.where in ("edges", "photo"):
             values = stage.values[kept] if stage.where == "edges" else stage.values[rows, columns]

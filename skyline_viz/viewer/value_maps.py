@@ -23,6 +23,9 @@ from skyline_viz.stage import Quantity
 COARSE, FINE = 255, 4095
 """Values that a map tells apart: one byte a pixel in lean recordings, two in full ones."""
 
+BANDS = 21
+"""Values of a smooth map in lean recordings: bands of equal pixels take a third of the bytes."""
+
 
 @dataclass(frozen=True, eq=False)
 class ValueMap:

@@ -13,7 +13,7 @@ from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline, SkylineError
 from testing import SAMPLES
-from testing.detections import flat_truth, lines_in_the_sky, write_dataset
+from testing.detections import WITHOUT_SKY, flat_truth, lines_in_the_sky, write_dataset
 from testing.injected import MAKERS, cases, main_cause
 
 EACH = 6
@@ -45,7 +45,7 @@ def test_a_cause_stands_on_a_counterfactual(cause):
 
 def test_as_many_lines_are_taken_away_as_are_cheaper():
     photo, truth = lines_in_the_sky(3)
-    (segment,) = diagnose(sv.Detector().detect(photo), truth).segments
+    (segment,) = diagnose(WITHOUT_SKY.detect(photo), truth).segments
     assert segment.cause == "cheaper path"
     last = segment.trials[-1]
     assert last.changes == ("cheaper path", *segment.contributing)

@@ -21,10 +21,11 @@ from testing.detections import result
 
 def test_the_summary_has_the_figures_of_each_method_under_its_name(tmp_path):
     path = tmp_path / "out" / "summary.json"
+    detector = Detector()
     found = Evaluation(
         {"default": [result("a", 2.5)], "edges": []},
         (Failure("b", "it is gone"),),
-        {"default": Detector(), "edges": EdgesOnly()},
+        {"default": detector, "edges": EdgesOnly()},
         folds=2,
         seed=3,
     )
@@ -34,7 +35,7 @@ def test_the_summary_has_the_figures_of_each_method_under_its_name(tmp_path):
     assert document["summary"]["default"]["mean"] == 2.5
     assert document["summary"]["edges"]["median"] is None
     assert document["settings"]["default"]["config"]["delta"] == 4
-    assert document["settings"]["default"]["bank"]["images"] == 450
+    assert document["settings"]["default"]["bank"]["images"] == detector.bank.images
     assert document["settings"]["edges"] == {}
     assert document["failed"] == [{"name": "b", "reason": "it is gone"}]
 

@@ -6,7 +6,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.comparison import log_comparison
-from testing.recordings import Read, scene
+from testing.recordings import Read, drawn_rows, scene, visible_rows
 
 
 @pytest.mark.parametrize("apart", [0, 30])
@@ -21,8 +21,8 @@ def test_it_says_where_the_second_one_differs(apart, tmp_path):
         verdict = log_comparison(recording, detection, other, truth, "the <second> one")
     assert verdict.a_err == pytest.approx(sv.a_err(other.skyline, truth))
     read = Read(tmp_path / "a.rrd")
-    (line,) = read.last(entities.ALTERNATIVE, "strips").as_py()
-    np.testing.assert_array_equal(np.array(line)[:, 1], other.skyline.rows)
+    line = drawn_rows(read.last(entities.ALTERNATIVE, "strips").as_py(), photo.shape[1])
+    np.testing.assert_array_equal(line, visible_rows(other.skyline))
     assert entities.below(entities.OTHER, entities.COST) in read.entities()
     (text,) = read.last(entities.COMPARISON, "text").as_py()
     lower = np.abs(other.skyline.rows - detection.skyline.rows)

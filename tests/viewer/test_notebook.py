@@ -11,7 +11,7 @@ from nbclient import NotebookClient
 import skyline_viz as sv
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.rerun_internals import program
-from testing import ROOT
+from testing import ROOT, SAMPLES
 from testing.recordings import Read
 
 
@@ -75,6 +75,9 @@ def test_the_example_notebook_runs():
     views = [
         one for one in outputs if "application/vnd.jupyter.widget-view+json" in one.get("data", {})
     ]
-    assert "A_err 132.97 px" in "".join(texts)
+    (item,) = (one for one in sv.open_dataset(SAMPLES) if one.name == "hazy-1")
+    for name in ("default", "paper"):
+        error = sv.a_err(sv.find_method(name).detect(item.photo()).skyline, item.truth())
+        assert f"A_err {error:.2f} px" in "".join(texts)
     assert len(views) >= 2
     assert not [one for one in outputs if one["output_type"] == "error"]

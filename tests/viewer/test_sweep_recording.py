@@ -7,7 +7,7 @@ import skyline_viz as sv
 from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.sweep_recording import log_sweeps
-from testing.recordings import Read, banks_of_sizes, scene, verify
+from testing.recordings import Read, banks_of_sizes, drawn_rows, scene, verify, visible_rows
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +38,8 @@ def test_each_timeline_holds_the_path_of_each_value(read, found):
         lines = recorded.on(sweep.timeline, entities.SWEEP_PATH, "strips")
         assert sorted(lines) == [step.at for step in sweep.steps]
         for step, detection in sweep.detections(found[0]):
-            (line,) = lines[step.at]
-            assert np.array_equal(np.array(line)[:, 1], detection.skyline.rows)
+            line = drawn_rows(lines[step.at], detection.skyline.width)
+            np.testing.assert_array_equal(line, visible_rows(detection.skyline))
 
 
 def test_errors_and_reports_say_the_exact_value(read, found):
@@ -71,8 +71,9 @@ def test_maps_are_logged_where_they_change_only(read):
 
 def test_timelines_without_a_sweep_show_the_present_path(read, found):
     for timeline in (entities.IMAGE, entities.COLUMN):
-        ((line,),) = read[0].on(timeline, entities.SWEEP_PATH, "strips").values()
-        assert np.array_equal(np.array(line)[:, 1], found[0].skyline.rows)
+        (strips,) = read[0].on(timeline, entities.SWEEP_PATH, "strips").values()
+        line = drawn_rows(strips, found[0].skyline.width)
+        np.testing.assert_array_equal(line, visible_rows(found[0].skyline))
         assert read[0].on(timeline, entities.SWEEP_EDGES, "blob")
 
 
