@@ -157,14 +157,17 @@ class Detector:
         others = dict(values)
         named = others.pop("sky", self.sky)
         sky = named if isinstance(named, SkyModel) else SkyModel.named(str(named))
-        return replace(self, config=self.config.with_settings(others), sky=sky)
+        config = self.config.with_settings(others)
+        if sky != self.sky and not config.sky_weight:
+            raise ValueError(f"the sky model {sky.name} would not be run, for sky_weight is 0")
+        return replace(self, config=config, sky=sky)
 
     def own_name(self) -> str:
         """What it is called without a label: its configuration, and a sky model of its own."""
         name = self.config.name
         if self.sky == SkyModel.small():
             return name
-        return f"{name}{',' if ':' in name else ':'}{'sky'}={self.sky.name}"
+        return f"{name}{',' if ':' in name else ':'}sky={self.sky.name}"
 
     def labelled(self, label: str) -> Detector:
         """The same under another name."""
@@ -326,8 +329,8 @@ class Detector:
             line = Skyline(path.rows.astype(np.float32), frame.shows(photo.shape[1]))
             shown = None
             if sky is not None:
-                shown = visibility(sky, line.rows, rows, columns, len(edges))
-                line = Skyline(line.rows, line.visible & shown.visible)
+                shown = visibility(sky, line.rows, rows, columns, len(edges), frame)
+                line = Skyline(line.rows, shown.visible)
         return FilterDetection(
             method=self.name,
             photo=photo,

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import os
 import threading
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from importlib import resources
@@ -21,7 +22,14 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32, U8, check_photo
-from skyline_viz.networks.onnx_files import MEAN, STD, Network, read_network, read_notes, sigmoid
+from skyline_viz.networks.onnx_files import (
+    MEAN,
+    STD,
+    Network,
+    probabilities,
+    read_network,
+    read_notes,
+)
 from skyline_viz.networks.trial import digest_of, remember, survived
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
 from skyline_viz.system.settings import MethodError
@@ -182,7 +190,8 @@ class SkyModel:
 
     def _opened(self, name: str) -> Network:
         if self.name in SHIPPED:
-            _shipped(self.name)  # from then on such a content is known to do no harm
+            with suppress(MethodError):  # of a file that an installation before this one wrote
+                _shipped(self.name)  # from then on such a content is known to do no harm
         network = Network(self.network, name, classic=True)
         shapes = [one.shape for one in network.header.inputs]
         if len(shapes) != 1 or len(shapes[0]) != 4 or shapes[0][1] != 3:
@@ -206,9 +215,7 @@ class SkyModel:
                 f"{network.name} gives {output.shape}, and not one map (1, 1, rows, columns)."
             )
         values = output.reshape(output.shape[-2:]).astype(np.float32)
-        if given.name == LOGITS or values.min() < 0 or values.max() > 1:
-            return sigmoid(values)
-        return values
+        return probabilities(values, logits=given.name == LOGITS)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go to other processes: by name if shipped, else with the word that it was tried."""

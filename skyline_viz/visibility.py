@@ -28,6 +28,10 @@ import numba
 import numpy as np
 
 from skyline_viz.arrays import F32, Bool, Int, read_only, runs
+from skyline_viz.frames.frame import Frame
+
+NO_FRAME = Frame()
+"""That of most photos."""
 
 Case: TypeAlias = Literal["skyline", "does not cross", "no sky", "no terrain"]
 """What a photo shows: a skyline from side to side, one that is not visible everywhere, or none for
@@ -90,6 +94,9 @@ class Visibility:
     case: Case
     """What the photo shows."""
 
+    share: float
+    """Share of the picture's columns in which the line can be seen."""
+
     def __post_init__(self) -> None:
         """Freeze the arrays."""
         read_only(self.evidence)
@@ -107,13 +114,23 @@ class Visibility:
         if self.case == "skyline":
             return f"The skyline crosses the photo ({sure})."
         if self.case == "does not cross":
-            share = f"{np.floor(100 * self.visible.mean()):.0f} %"
+            share = f"{np.floor(100 * self.share):.0f} %"
             return f"The skyline does not cross the photo: {share} of its columns show it ({sure})."
         return f"No skyline is visible: there seems to be {self.case} ({sure})."
 
 
-def visibility(sky: F32, rows: F32, edge_rows: Int, edge_columns: Int, height: int) -> Visibility:
+def visibility(
+    sky: F32,
+    rows: F32,
+    edge_rows: Int,
+    edge_columns: Int,
+    height: int,
+    frame: Frame = NO_FRAME,
+) -> Visibility:
     """Ask the map of a sky model where a line is a skyline.
+
+    Only the picture counts: no line is visible in the columns of a frame, and these say nothing of
+    the others.
 
     Args:
         sky: ``(h, w)`` probability of sky of each region, see `sky_model.SkyModel.sky`.
@@ -121,26 +138,32 @@ def visibility(sky: F32, rows: F32, edge_rows: Int, edge_columns: Int, height: i
         edge_rows: ``(n,)`` int32 row of each edge pixel.
         edge_columns: ``(n,)`` int32 column of each edge pixel.
         height: Rows of the photo.
+        frame: Its frame, in which there are no edges.
     """
+    shown = frame.shows(len(rows))
     on_edge, above, below = _edges_about(rows, edge_rows, edge_columns, NEAR)
     alone = np.count_nonzero(on_edge) / max(len(edge_rows), 1)
-    over = float(rows.sum())
-    above_share = above / max(over, 1.0)
-    below_share = below / max(height * len(rows) - over, 1.0)
+    on_edge[~shown] = 2 * on_edge.sum() > shown.sum()  # neither better nor worse than the rest
+    over = float(rows[shown].sum()) - frame.top * shown.sum()
+    under = (height - frame.top - frame.bottom) * shown.sum() - over
+    above_share, below_share = above / max(over, 1.0), below / max(under, 1.0)
     clear = 1 - above_share / (above_share + below_share + FEW_EDGES)
     evidence = _evidence(sky, rows, on_edge, alone, height, RIM, AROUND)
     evidence *= np.float32(clear)
-    place = len(evidence) - 1 - int(SUREST * (len(evidence) - 1))
-    confidence = float(np.partition(evidence, place)[place])
+    picture = evidence[shown]
+    place = len(picture) - 1 - int(SUREST * (len(picture) - 1))
+    confidence = float(np.partition(picture, place)[place])
     if confidence < PHOTO_THRESHOLD:
         nowhere = np.zeros(len(evidence), np.bool_)
-        return Visibility(evidence, nowhere, confidence, _missing(sky))
-    visible = evidence >= COLUMN_THRESHOLD
-    for first, last in runs(~visible):
-        if last - first + 1 < SHORTEST * len(visible):
+        return Visibility(evidence, nowhere, confidence, _missing(sky), 0.0)
+    visible = shown & (evidence >= COLUMN_THRESHOLD)
+    for first, last in runs(shown & ~visible):
+        if last - first + 1 < SHORTEST * len(picture):
             visible[first : last + 1] = True
-    case: Case = "skyline" if visible.all() else "does not cross"
-    return Visibility(evidence, visible, confidence, case)
+    share = float(visible.sum() / shown.sum())
+    return Visibility(
+        evidence, visible, confidence, "skyline" if share == 1 else "does not cross", share
+    )
 
 
 def _missing(sky: F32) -> Case:

@@ -146,11 +146,12 @@ def unseen(kind=NoSky):
 
 
 def half_a_line(height=120, width=160):
-    """A photo with a level line in the middle of its left half, and terrain of one grey elsewhere.
+    """A photo with a level line in the middle of its left half, and terrain in greys elsewhere.
 
-    Two lines of dots below keep the line from being the only edge there is.
+    It gets darker to the right, for what is of one grey is a bar beside the picture. Two lines of dots below keep the line from being the only edge there is.
     """
-    photo = np.full((height, width, 3), 70, np.uint8)
+    greys = np.linspace(100, 40, width).astype(np.uint8)
+    photo = np.repeat(np.broadcast_to(greys, (height, width))[..., None], 3, axis=2)
     photo[: height // 2, : width // 2] = 210
     for row in (height // 2 + 20, height // 2 + 40):
         photo[row : row + 4, ::8] = 250

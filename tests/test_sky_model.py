@@ -275,6 +275,14 @@ def test_sky_models_stand_in_the_names_of_detectors(tmp_path):
         find_method("default:sky=huge")
 
 
+# What would not be run
+
+
+def test_a_model_that_would_not_be_run_is_refused():
+    with pytest.raises(ValueError, match="bright would not be run, for sky_weight is 0"):
+        Detector(config=DetectorConfig.paper()).with_settings({"sky": bright_model()})
+
+
 # Where it is from
 
 

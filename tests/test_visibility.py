@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from skyline_viz.arrays import runs
 from skyline_viz.config import DetectorConfig
+from skyline_viz.detector import Detector
 from skyline_viz.path import shortest_path
 from skyline_viz.visibility import (
     COLUMN_THRESHOLD,
@@ -18,6 +19,7 @@ from skyline_viz.visibility import (
     visibility,
 )
 from testing.detections import Halves, half_a_line, mountains, unseen
+from testing.networks import bright_model
 
 HEIGHT, WIDTH = 96, 64
 
@@ -238,3 +240,22 @@ def test_what_is_visible_moves_no_line():
     assert np.array_equal(detection.skyline.rows, path.rows.astype(np.float32))
     again = detection.again(replace(detection.config, link_weight=0.2))
     assert again.visibility.case == "no sky"
+
+
+# In a frame
+
+
+@pytest.mark.parametrize("side", [50, 150, 240])
+def test_bars_at_the_sides_say_nothing_of_the_picture(side):
+    """A line that is right in all of the picture crosses it, however narrow that is."""
+    photo = np.zeros((300, 600, 3), np.uint8)
+    rows = 150 + 20 * np.sin(np.arange(600) / 40)
+    below = np.arange(300)[:, None] >= rows
+    photo[:] = np.where(below[..., None], (60, 70, 50), (170, 200, 240))
+    photo[:, :side] = photo[:, 600 - side :] = 0
+    found = Detector(sky=bright_model()).detect(photo)
+    assert (found.frame.left, found.frame.right) == (side, side)
+    shown = found.frame.shows(600)
+    np.testing.assert_array_equal(found.skyline.visible, shown)
+    np.testing.assert_array_equal(found.visibility.visible, shown)
+    assert (found.visibility.case, found.visibility.share) == ("skyline", 1.0)

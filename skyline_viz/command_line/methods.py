@@ -118,6 +118,10 @@ class Methods:
         from skyline_viz.detector import Detector
         from skyline_viz.methods.registry import find_method
 
+        if self.sky_model and not self.config.sky_weight:
+            raise UsageError(
+                f"{self.config.name} runs no sky model, for its sky_weight is 0; leave out --sky."
+            )
         if self.bank is None:
             ours = Detector(config=self.config)
             return ours.with_settings({"sky": self.sky_model}) if self.sky_model else ours

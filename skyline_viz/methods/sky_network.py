@@ -33,8 +33,8 @@ from skyline_viz.networks.onnx_files import (
     Network,
     normalised,
     padded,
+    probabilities,
     read_network,
-    sigmoid,
 )
 from skyline_viz.system.settings import Configured, name_with, within
 
@@ -148,8 +148,7 @@ class SkyNetwork(HoldsNetwork, Configured):
             )
         values: F32 = output[0].astype(np.float32)
         if classes == 1:
-            inside = values.min() >= 0 and values.max() <= 1
-            return values[0] if inside else sigmoid(values[0])
+            return probabilities(values[0])
         if values.min() < 0 or np.abs(values.sum(axis=0) - 1).max() > 1e-2:
             values = np.exp(values - values.max(axis=0))
             values /= values.sum(axis=0)

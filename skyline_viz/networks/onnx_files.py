@@ -6,6 +6,7 @@ which only the few fields are read that describe inputs and outputs.
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -29,6 +30,9 @@ MEAN = (0.485, 0.456, 0.406)
 
 STD = (0.229, 0.224, 0.225)
 """Their standard deviation."""
+
+ROUNDING = 1e-3
+"""So far outside of [0, 1] a probability may be."""
 
 _USUAL = 256  # rows and columns to try a network with
 _LARGEST_INPUT = 3 * 150_000_000  # numbers of an input: the largest photo, in three colours
@@ -179,15 +183,47 @@ class Network:
     @contextmanager
     def _explained(self, trouble: str) -> Iterator[None]:
         """Make one sentence of what OpenCV raises, without what it prints besides."""
-        level = cv2.utils.logging.getLogLevel()
-        cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
         try:
-            yield
+            with _quiet():
+                yield
         except cv2.error as error:
             reason = " ".join(str(error.err or error).split())[:200].rstrip(". ")
             raise MethodError(f"{self.name} {trouble}: {reason}.") from error
-        finally:
-            cv2.utils.logging.setLogLevel(level)
+
+
+class _Quiet:
+    """Threads in which OpenCV is silent, and how loud it was before the first of them."""
+
+    lock = threading.Lock()
+    threads = 0
+    level = 0
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Silence OpenCV while any thread is in here; its level is one for all of them."""
+    with _Quiet.lock:
+        if not _Quiet.threads:
+            _Quiet.level = cv2.utils.logging.getLogLevel()
+            cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+        _Quiet.threads += 1
+    try:
+        yield
+    finally:
+        with _Quiet.lock:
+            _Quiet.threads -= 1
+            if not _Quiet.threads:
+                cv2.utils.logging.setLogLevel(_Quiet.level)
+
+
+def probabilities(values: F32, *, logits: bool = False) -> F32:
+    """Probabilities of what a network gave: logits, if told so or outside of [0, 1].
+
+    What is outside by no more than rounding is a probability.
+    """
+    if logits or values.min() < -ROUNDING or values.max() > 1 + ROUNDING:
+        return sigmoid(values)
+    return np.asarray(np.clip(values, 0, 1), np.float32)
 
 
 def normalised(photo: U8, mean: tuple[float, ...], std: tuple[float, ...]) -> F32:

@@ -1,8 +1,10 @@
 """Networks from ONNX files: what the file says goes in and comes out."""
 
 import pickle
+from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
 
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given
@@ -15,6 +17,7 @@ from skyline_viz.networks.onnx_files import (
     Network,
     normalised,
     padded,
+    probabilities,
     read_header,
     read_network,
     read_notes,
@@ -113,3 +116,26 @@ def test_padding_repeats_the_lower_and_right_rim(height, width):
     np.testing.assert_array_equal(larger[:height, :width], photo)
     assert (larger[height:, :width] == photo[-1]).all()
     assert (larger[:, width:] == larger[:, width - 1 : width]).all()
+
+
+def test_the_level_of_opencv_comes_back_whatever_the_threads():
+    network = Network(bright_sky(), "bright", classic=True)
+    blob = np.zeros((1, 3, 12, 16), np.float32)
+    networks = [Network(bright_sky(), "bright", classic=True) for _ in range(6)]
+    before = cv2.utils.logging.getLogLevel()
+    with ThreadPoolExecutor(6) as pool:
+        list(pool.map(lambda one: [one.run(blob) for _ in range(50)], networks))
+    network.run(blob)
+    assert cv2.utils.logging.getLogLevel() == before
+
+
+@pytest.mark.parametrize(
+    ("given", "wanted"),
+    [([0.0, 1.0], [0.0, 1.0]), ([-1e-6, 1.000001], [0.0, 1.0]), ([-4.0, 4.0], [0.018, 0.982])],
+    ids=["probabilities", "rounded", "logits"],
+)
+def test_numbers_a_hair_outside_are_probabilities(given, wanted):
+    found = probabilities(np.array(given, np.float32))
+    np.testing.assert_allclose(found, wanted, atol=1e-3)
+    assert found.min() >= 0
+    assert found.max() <= 1
