@@ -52,8 +52,8 @@ def test_as_many_lines_are_taken_away_as_are_cheaper():
     assert last == segment.proof
     assert 2 <= last.lines <= 8
     assert f"Without the {last.lines} lines that are cheaper" in segment.evidence
-    others = [one.repaired for one in segment.trials if "cheaper path" not in one.changes]
-    assert segment.margin == pytest.approx(last.repaired - max(others, default=0.0))
+    against = [one.repaired for one in segment.trials if "cheaper path" not in one.changes]
+    assert segment.margin == pytest.approx(last.repaired - max(against, default=0))
 
 
 def test_a_whole_photo_lost_to_other_lines_is_proved_with_the_truth_made_right(hazy):
@@ -140,7 +140,7 @@ def test_a_truth_of_another_width_is_refused(hazy):
 def test_tolerances_grow_with_the_photo(hazy):
     detection, truth = hazy
     assert diagnose(detection, truth).tolerance == pytest.approx(4 * 540 / 519)
-    assert diagnose(detection, truth, 200).right
+    assert diagnose(detection, truth, 540).right  # no line is farther off than the photo is high
 
 
 def test_the_report_begins_with_the_largest_total_error(flat):
