@@ -48,7 +48,7 @@ reliability: .venv/.installed-dev  ## The tables of docs/reliability.md: faults,
 	.venv/bin/python -m benchmarks.reliability
 
 pictures: .venv/.installed-dev  ## Draw the pictures of the docs again.
-	.venv/bin/skyline-viz inspect sample_data/images/hazy-1.jpg --truth sample_data/masks/hazy-1.png \
+	.venv/bin/skyline-viz inspect sample_data/images/hazy-2.jpg --truth sample_data/masks/hazy-2.png \
 	    --method default paper --screenshot docs/inspect.jpg
 	.venv/bin/python -m tools.viewer_pictures docs
 	.venv/bin/skyline-viz gallery sample_data --screenshot docs/gallery.jpg
