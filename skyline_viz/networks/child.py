@@ -8,6 +8,7 @@ whatever OpenCV said; `MEMORY` that it wanted too much memory.
 import os
 import sys
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -30,8 +31,9 @@ def opened(content: bytes, *, classic: bool = False) -> Any:  # noqa: ANN401 - O
         cv2.error: OpenCV does not know such a network.
     """
     if classic and hasattr(cv2.dnn, "ENGINE_CLASSIC"):
-        # OpenCV 5.0 takes the engine for a file, and forgets it for a content in memory
-        with tempfile.TemporaryDirectory() as folder:
+        # OpenCV 5.0 takes the engine for a file, and forgets it for a content in memory. Where
+        # there is no room for a file, the other engine does: slower, and as right.
+        with suppress(OSError), tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "network.onnx")
             path.write_bytes(content)
             return cv2.dnn.readNetFromONNX(str(path), cv2.dnn.ENGINE_CLASSIC)

@@ -122,9 +122,7 @@ def test_a_sky_model_and_the_sky_of_masks_are_told_apart(words, spelt):
     ("words", "name"),
     [
         ("", "default:sky=s.onnx"),
-        ("--preset paper", "paper:sky=s.onnx"),
         ("--bank b.npz", "mine:sky=s.onnx"),
-        ("--bank b.npz --preset paper", "paper:sky=s.onnx,model=b.npz"),
     ],
 )
 def test_a_sky_model_is_an_option_beside_presets_and_banks(words, name, tmp_path, monkeypatch):
@@ -141,3 +139,10 @@ def test_a_sky_model_is_an_option_beside_presets_and_banks(words, name, tmp_path
 def test_no_sky_model_is_a_sentence():
     with pytest.raises(sv.MethodError, match="huge is no sky model"):
         parse(["detect", "a.jpg", "--sky", "huge"]).methods.chosen()
+
+
+@pytest.mark.parametrize("words", ["--preset paper", "--config.sky-weight 0"])
+def test_a_sky_model_that_would_not_run_is_refused(words):
+    command = parse(["evaluate", ".", "--sky", "small", *words.split()])
+    with pytest.raises(UsageError, match="runs no sky model, for its sky_weight is 0"):
+        command.methods.chosen()
