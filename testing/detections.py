@@ -148,7 +148,8 @@ def unseen(kind=NoSky):
 def half_a_line(height=120, width=160):
     """A photo with a level line in the middle of its left half, and terrain in greys elsewhere.
 
-    It gets darker to the right, for what is of one grey is a bar beside the picture. Two lines of dots below keep the line from being the only edge there is.
+    It gets darker to the right, for what is of one grey is a bar beside the picture. Two lines of
+    dots below keep the line from being the only edge there is.
     """
     greys = np.linspace(100, 40, width).astype(np.uint8)
     photo = np.repeat(np.broadcast_to(greys, (height, width))[..., None], 3, axis=2)

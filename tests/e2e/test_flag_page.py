@@ -83,7 +83,7 @@ def card(page, name):
 def test_the_worst_come_first_with_a_picture_and_a_verdict(window, built):
     page, entries = window(), built[1]
     assert page.locator("h2").all_inner_texts() == NAMES
-    said = f"A_err {entries[0].a_err:.2f} px · {entries[0].cause}"
+    said = f"A_err {entries[0].verdict.a_err:.2f} px · {entries[0].cause}"
     assert card(page, "hazy-1").locator(".verdict").inner_text() == said
     assert page.evaluate("[...document.images].every((one) => one.complete && one.naturalWidth)")
     assert page.locator("#count").inner_text() == "0 of 3 reviewed"

@@ -87,7 +87,7 @@ def test_cards_tell_what_people_said_and_lead_inside(built):
             until(lambda: says(robot, "said meanwhile"))
             robot.do("click", content_contains="hazy-1", role="Label")
             until(lambda: viewer.get_state().views)
-            error = f"{entries[0].a_err:.2f}"
+            error = f"{entries[0].verdict.a_err:.2f}"
             until(lambda: says(robot, f"A_err {error}") or says(robot, f"{error} px"))
             assert tab_names(viewer)[-1] == "Diagnosis"
             show_tab(viewer, "Diagnosis")
