@@ -174,9 +174,14 @@ export class Actions extends Events {
     if (!next) return " No photo is to do any more.";
     if (!await labelling.open(next.id)) return null;
     if (done) this.#follow([done]);
-    const { doubtful = null, doubt = "" } = labelling.document ?? {};
-    const told = doubtful === null ? "" : ` A diagnosis doubts the truth around column ${doubtful} of this one.`;
-    return told || (doubt && ` The detector says of this one: ${doubt}`);
+    return this.#doubts();
+  }
+
+  /** What a diagnosis, or else the detector, doubts of the photo that is open; nothing most often. */
+  #doubts() {
+    const { doubtful = null, doubt = "" } = this.#labelling.document ?? {};
+    if (doubtful !== null) return ` A diagnosis doubts the truth around column ${doubtful} of this one.`;
+    return doubt && ` The detector says of this one: ${doubt}`;
   }
 
   /** Take back the last thing that was done: here, or the status of the photo that was left just now. */
