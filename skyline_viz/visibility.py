@@ -22,12 +22,13 @@ The thresholds were chosen with whole sources left out, see ``docs/method.md``.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numba
 import numpy as np
+import numpy.typing as npt
 
-from skyline_viz.arrays import F32, Bool, Int, read_only, runs
+from skyline_viz.arrays import F32, F64, Bool, Int, read_only, runs
 from skyline_viz.frames.frame import Frame
 
 NO_FRAME = Frame()
@@ -144,12 +145,15 @@ def visibility(
     on_edge, above, below = _edges_about(rows, edge_rows, edge_columns, NEAR)
     alone = np.count_nonzero(on_edge) / max(len(edge_rows), 1)
     on_edge[~shown] = 2 * on_edge.sum() > shown.sum()  # neither better nor worse than the rest
-    over = float(rows[shown].sum()) - frame.top * shown.sum()
-    under = (height - frame.top - frame.bottom) * shown.sum() - over
-    above_share, below_share = above / max(over, 1.0), below / max(under, 1.0)
+    over = np.maximum(rows - frame.top, 0)
+    under = np.maximum(height - frame.bottom - rows, 0)
+    above_share, below_share = (
+        _around(edges, AROUND) / np.maximum(_around(room, AROUND), 1.0)
+        for edges, room in ((above * shown, over * shown), (below * shown, under * shown))
+    )
     clear = 1 - above_share / (above_share + below_share + FEW_EDGES)
     evidence = _evidence(sky, rows, on_edge, alone, height, RIM, AROUND)
-    evidence *= np.float32(clear)
+    evidence *= clear.astype(np.float32)
     picture = evidence[shown]
     place = len(picture) - 1 - int(SUREST * (len(picture) - 1))
     confidence = float(np.partition(picture, place)[place])
@@ -171,18 +175,29 @@ def _missing(sky: F32) -> Case:
     return "no terrain" if sky.mean() > 0.5 else "no sky"
 
 
+def _around(values: npt.NDArray[Any], around: float) -> F64:
+    """Sums ``(W,)`` over the columns around each one."""
+    half = int(len(values) * around / 2)
+    sums = np.concatenate([[0.0], np.cumsum(values, dtype=np.float64)])
+    columns = np.arange(len(values))
+    first, end = np.maximum(columns - half, 0), np.minimum(columns + half + 1, len(values))
+    found: F64 = sums[end] - sums[first]
+    return found
+
+
 @numba.njit(cache=True, nogil=True)
-def _edges_about(rows: F32, edge_rows: Int, edge_columns: Int, near: int) -> tuple[Bool, int, int]:
+def _edges_about(rows: F32, edge_rows: Int, edge_columns: Int, near: int) -> tuple[Bool, Int, Int]:
     """Where the line runs on an edge ``(W,)``, and how many edge pixels lie above and below it."""
     on_edge = np.zeros(rows.size, np.bool_)
-    above = below = 0
+    above = np.zeros(rows.size, np.int32)
+    below = np.zeros(rows.size, np.int32)
     for edge in range(edge_rows.size):
         column = edge_columns[edge]
         lower = edge_rows[edge] - rows[column]
         if lower == 0:
             on_edge[column] = True
-        above += lower < -near
-        below += lower > near
+        above[column] += lower < -near
+        below[column] += lower > near
     return on_edge, above, below
 
 
