@@ -145,13 +145,12 @@ def visibility(
     on_edge, above, below = _edges_about(rows, edge_rows, edge_columns, NEAR)
     alone = np.count_nonzero(on_edge) / max(len(edge_rows), 1)
     on_edge[~shown] = 2 * on_edge.sum() > shown.sum()  # neither better nor worse than the rest
-    over = np.maximum(rows - frame.top, 0)
-    under = np.maximum(height - frame.bottom - rows, 0)
-    above_share, below_share = (
-        _around(edges, AROUND) / np.maximum(_around(room, AROUND), 1.0)
-        for edges, room in ((above * shown, over * shown), (below * shown, under * shown))
-    )
-    clear = 1 - above_share / (above_share + below_share + FEW_EDGES)
+    over = np.maximum(rows - frame.top, 0) * shown
+    under = np.maximum(height - frame.bottom - rows, 0) * shown
+    # full of edges here, and as a whole: leaves in a corner are no reason to doubt the sky
+    here = _clear(*(_around(one, AROUND) for one in (above, over, below, under)))
+    whole = _clear(*(np.array([one.sum()]) for one in (above, over, below, under)))
+    clear = np.maximum(here, whole)
     evidence = _evidence(sky, rows, on_edge, alone, height, RIM, AROUND)
     evidence *= clear.astype(np.float32)
     picture = evidence[shown]
@@ -173,6 +172,17 @@ def visibility(
 def _missing(sky: F32) -> Case:
     """What a photo without a skyline has least of."""
     return "no terrain" if sky.mean() > 0.5 else "no sky"
+
+
+def _clear(
+    above: npt.NDArray[Any],
+    over: npt.NDArray[Any],
+    below: npt.NDArray[Any],
+    under: npt.NDArray[Any],
+) -> F64:
+    """How clear the sky is, in [0, 1], from edge pixels and all pixels, above and below a line."""
+    above_share, below_share = above / np.maximum(over, 1), below / np.maximum(under, 1)
+    return np.asarray(1 - above_share / (above_share + below_share + FEW_EDGES), np.float64)
 
 
 def _around(values: npt.NDArray[Any], around: float) -> F64:
