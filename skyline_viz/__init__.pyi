@@ -32,6 +32,7 @@ from .evaluation.sweeping import sweep as sweep
 from .evaluation.verdict import Verdict as Verdict
 from .filter_bank import FilterBank as FilterBank
 from .filter_bank import FilterBankError as FilterBankError
+from .frames.visibility import Visibility as Visibility
 from .method import Method as Method
 from .method import MethodError as MethodError
 from .methods.registry import find_method as find_method
@@ -52,6 +53,5 @@ from .viewer.notebook import show_detection as show_detection
 from .viewer.recording import log_detection as log_detection
 from .viewer.recording import log_stages as log_stages
 from .viewer.recording import new_recording as new_recording
-from .visibility import Visibility as Visibility
 
 __version__: str

@@ -20,6 +20,7 @@ from skyline_viz.cost import CostModel
 from skyline_viz.edges import edge_pixels
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.frames.frame import Frame
+from skyline_viz.frames.visibility import Visibility
 from skyline_viz.path import shortest_path
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage import (
@@ -38,7 +39,6 @@ from skyline_viz.stage import (
 from skyline_viz.tensor import tensor_map
 from skyline_viz.terms import Link
 from skyline_viz.uncertainty import Uncertainty, uncertainty
-from skyline_viz.visibility import Visibility
 
 if TYPE_CHECKING:
     from skyline_viz.detector import Detector

@@ -19,6 +19,7 @@ from skyline_viz.edges import candidate_edges, edge_pixels, edge_settings, frame
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
 from skyline_viz.frames.frame import Frame, without_frame
+from skyline_viz.frames.visibility import visibility
 from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
 from skyline_viz.sky_model import NETWORK, SkyModel
@@ -27,7 +28,6 @@ from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
 from skyline_viz.tensor import Tensor, tensor_at
 from skyline_viz.training import GramMatrices, gather_item, solve, train
-from skyline_viz.visibility import visibility
 
 STAGES = ("sky", "edges", "tensor", "bins", "score", "cost", "path")
 """The stages whose seconds are told, in their order."""

@@ -1,1 +1,1 @@
-"""Frames around pictures: what they are, and how they are found."""
+"""What of a photo shows a skyline: frames around pictures, and where the line can be seen in one."""

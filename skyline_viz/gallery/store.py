@@ -27,6 +27,7 @@ from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.evaluation.verdict import Verdict
+from skyline_viz.frames.visibility import Case
 from skyline_viz.gallery.documents import GalleryError, made, read_list, write_list
 from skyline_viz.gallery.thumbnails import write_thumbnail
 from skyline_viz.method import Method
@@ -40,7 +41,6 @@ from skyline_viz.viewer.contents import Contents
 from skyline_viz.viewer.diagnosis_recording import log_diagnosis
 from skyline_viz.viewer.recording import log_detection, new_recording
 from skyline_viz.viewer.report import listed_segments
-from skyline_viz.visibility import Case
 
 VERSION = 5
 """Of recordings and gallery.json; all of an earlier one are made anew."""

@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 from skyline_viz.arrays import runs
 from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
-from skyline_viz.path import shortest_path
-from skyline_viz.visibility import (
+from skyline_viz.frames.visibility import (
     COLUMN_THRESHOLD,
     PHOTO_THRESHOLD,
     SHORTEST,
     Visibility,
     visibility,
 )
+from skyline_viz.path import shortest_path
 from testing.detections import Halves, half_a_line, mountains, unseen
 from testing.networks import bright_model
 
