@@ -1,1 +1,1 @@
-"""What of a photo shows a skyline: frames around pictures, and where the line can be seen in one."""
+"""What of a photo shows a skyline: frames around pictures, and where a line can be seen."""
