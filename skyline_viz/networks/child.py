@@ -8,7 +8,8 @@ whatever OpenCV said; `MEMORY` that it wanted too much memory.
 import os
 import sys
 import tempfile
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -33,11 +34,27 @@ def opened(content: bytes, *, classic: bool = False) -> Any:  # noqa: ANN401 - O
     if classic and hasattr(cv2.dnn, "ENGINE_CLASSIC"):
         # OpenCV 5.0 takes the engine for a file, and forgets it for a content in memory. Where
         # there is no room for a file, the other engine does: slower, and as right.
-        with suppress(OSError), tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, "network.onnx")
-            path.write_bytes(content)
-            return cv2.dnn.readNetFromONNX(str(path), cv2.dnn.ENGINE_CLASSIC)
+        with suppress(OSError), _file_of(content) as path:
+            return cv2.dnn.readNetFromONNX(path, cv2.dnn.ENGINE_CLASSIC)
     return cv2.dnn.readNetFromONNX(np.frombuffer(content, np.uint8))
+
+
+@contextmanager
+def _file_of(content: bytes) -> Iterator[str]:
+    """The path of a file of this content, which goes when it was read.
+
+    Where the system can, it is a file in memory, which goes with the process, however this ends.
+    """
+    if hasattr(os, "memfd_create"):
+        with os.fdopen(os.memfd_create("network"), "wb") as file:
+            file.write(content)
+            file.flush()
+            yield f"/proc/self/fd/{file.fileno()}"
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "network.onnx")
+        path.write_bytes(content)
+        yield str(path)
 
 
 def main() -> None:
