@@ -24,6 +24,7 @@ WITHOUT_SKY = "without the sky model"
 
 WITHOUT = {
     WITHOUT_SKY: {"sky_weight": 0.0},
+    "without edges sought at its boundary": {"sky_edges": 1.0},
     "without the clear-sky term": {"clear_sky": 0.0},
     "without fitted thresholds": {"fit_thresholds": False},
     "with grey edges": {"edge_source": "grey"},

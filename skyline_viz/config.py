@@ -65,6 +65,10 @@ class DetectorConfig:
     and strength, and one without an edge 2: with a limit of 1 the model decides between edges, and
     never outbids the only one there is."""
 
+    sky_edges: float = 0.4
+    """Factor of the Canny thresholds where the sky model has a sure boundary and no edge lies near
+    it, see `edges.seek`; 1 seeks no edges there."""
+
     delta: int = 4
     """Largest change of row between neighbouring columns, in pixels."""
 
@@ -119,6 +123,7 @@ class DetectorConfig:
             non_edge_cost=3.0,
             clear_sky=0.0,
             sky_weight=0.0,
+            sky_edges=1.0,
             delta=1,
             link_weight=0.0,
         )
@@ -223,6 +228,7 @@ RANGES: dict[str, tuple[float, float]] = {
     "clear_sky": (0, 1e3),
     "sky_weight": (0, 1e3),
     "sky_cap": (0, 1e6),
+    "sky_edges": (0, 1),
     "delta": (0, 1e5),
     "link_weight": (0, 1e6),
 }

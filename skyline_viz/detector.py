@@ -288,9 +288,7 @@ class Detector:
             with timed(seconds, "edges"):
                 frame = frame_of(photo, config)
         sky = self._sky(photo, frame, seconds, found)
-        if found and not (
-            bank.bins == found.bank.bins and edge_settings(config) == edge_settings(found.config)
-        ):
+        if found and not (bank.bins == found.bank.bins and _edges_alike(config, sky, found)):
             found = None
         if found:
             edges, thresholds = found.edges, found.thresholds
@@ -298,7 +296,7 @@ class Detector:
             tensor = Tensor(found.strength, found.coherence, found.orientation)
         else:
             with timed(seconds, "edges"):
-                edges, thresholds = candidate_edges(photo, config, frame)
+                edges, thresholds = candidate_edges(photo, config, frame, sky)
                 rows, columns = edge_pixels(edges)
             with timed(seconds, "tensor"):
                 tensor = tensor_at(photo, rows, columns)
@@ -368,6 +366,14 @@ class Detector:
             return found.sky
         with timed(seconds, "sky"):
             return self.sky.sky(without_frame(photo, frame))
+
+
+def _edges_alike(config: DetectorConfig, sky: F32 | None, found: FilterDetection) -> bool:
+    """Whether all that edges depend on is that of a detection."""
+    ours = 1.0 if sky is None else config.sky_edges
+    theirs = 1.0 if found.sky is None else found.config.sky_edges
+    sought = ours == theirs and (ours == 1 or sky is found.sky)
+    return sought and edge_settings(config) == edge_settings(found.config)
 
 
 def _cost_alike(config: DetectorConfig, found: FilterDetection) -> bool:

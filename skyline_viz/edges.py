@@ -5,12 +5,16 @@ E(i, j) = 1 \text{ at edge pixels, } 0 \text{ elsewhere}
 $$
 """
 
+import math
+from typing import TypeAlias
+
 import cv2
 import numba
 import numpy as np
 
-from skyline_viz.arrays import I16, U8, Bool, Int
+from skyline_viz.arrays import F32, I16, U8, Bool, Int, runs
 from skyline_viz.config import DetectorConfig, EdgeSource
+from skyline_viz.frames.boundary import boundary
 from skyline_viz.frames.finding import find_frame
 from skyline_viz.frames.frame import Frame
 
@@ -32,6 +36,19 @@ LOWEST_FACTOR = 0.3
 GRADIENT_STEP = 6
 """Gradients are sampled this many pixels apart."""
 
+SURE = 0.05
+"""The sky model is sure of its boundary where no more than this share of the column is improbable,
+see `boundary.improbable`."""
+
+NEAR_BOUNDARY = 0.03
+"""An edge lies near the boundary up to this distance, as a share of the photo's height."""
+
+SHORTEST_GAP = 1 / 64
+"""Edges are sought where they are missing in this share of the columns, one after the other."""
+
+Slopes: TypeAlias = tuple[I16, I16]
+"""Sobel gradients along rows and columns, each ``(H, W)``: of a photo turned upside down."""
+
 
 def to_grey(photo: U8) -> U8:
     """Grey photo ``(H, W)`` uint8 of an RGB photo ``(H, W, 3)``, with the weights of ITU-R 601.
@@ -50,7 +67,7 @@ def frame_of(photo: U8, config: DetectorConfig) -> Frame:
 
 
 def candidate_edges(
-    photo: U8, config: DetectorConfig, frame: Frame | None = None
+    photo: U8, config: DetectorConfig, frame: Frame | None = None, sky: F32 | None = None
 ) -> tuple[Bool, tuple[float, float]]:
     """Edge map ``(H, W)`` of a photo without its frame, and the Canny thresholds that made it.
 
@@ -58,25 +75,29 @@ def candidate_edges(
         photo: ``(H, W, 3)`` uint8 RGB.
         config: The settings.
         frame: That of `frame_of`, where it is known already.
+        sky: ``(h, w)`` the map of a sky model, at whose boundary further edges are sought, see
+            `seek`; none without one.
     """
-    inside = (frame or frame_of(photo, config)).inside(photo)
-    found, thresholds = find_edges(
-        photo[inside],
-        config.edge_source,
-        config.low_threshold,
-        config.high_threshold,
-        fit=config.fit_thresholds,
-    )
-    if found.shape == photo.shape[:2]:
+    height, width = photo.shape[:2]
+    rows, columns = (frame or frame_of(photo, config)).inside(photo)
+    slopes = slopes_of(photo[rows, columns], config.edge_source)
+    thresholds = config.low_threshold, config.high_threshold
+    if config.fit_thresholds:
+        thresholds = fitted_thresholds(*slopes, *thresholds)
+    found = _canny(slopes, thresholds)
+    if sky is not None and config.sky_edges < 1:
+        where, doubt = boundary(sky, height, width)
+        lower = thresholds[0] * config.sky_edges, thresholds[1] * config.sky_edges
+        near = np.where(doubt > SURE, -1, np.rint(where) - rows.start)[columns].astype(np.int32)
+        seek(found, slopes, lower, near, math.ceil(NEAR_BOUNDARY * height))
+    if found.shape == (height, width):
         return found, thresholds
-    edges = np.zeros(photo.shape[:2], np.bool_)
-    edges[inside] = found
+    edges = np.zeros((height, width), np.bool_)
+    edges[rows, columns] = found
     return edges, thresholds
 
 
-def find_edges(
-    photo: U8, source: EdgeSource, low: float, high: float, *, fit: bool = False
-) -> tuple[Bool, tuple[float, float]]:
+def find_edges(photo: U8, source: EdgeSource, low: float, high: float) -> Bool:
     """Canny edges of an RGB photo.
 
     In colour, the gradient of each pixel is that of the channel in which it is strongest: a blue
@@ -87,28 +108,62 @@ def find_edges(
         source: Whether to look at the grey or the colour photo.
         low: Lower hysteresis threshold, on the 3x3 Sobel gradient of 8-bit values (L1 norm).
         high: Upper hysteresis threshold, same unit.
-        fit: Lower the thresholds for a soft or hazy photo, see `fitted_thresholds`.
 
     Returns:
-        ``(H, W)`` bool, True on edge pixels; and the thresholds that were used.
+        ``(H, W)`` bool, True on edge pixels.
 
     Examples:
         The edge lies in the first row of the darker half.
 
         >>> photo = np.full((9, 8, 3), 200, np.uint8)
         >>> photo[5:] = 60
-        >>> edges, thresholds = find_edges(photo, "colour", 50.0, 220.0)
+        >>> edges = find_edges(photo, "colour", 50.0, 220.0)
         >>> np.flatnonzero(edges.all(axis=1))
         array([5])
     """
+    return _canny(slopes_of(photo, source), (low, high))
+
+
+def slopes_of(photo: U8, source: EdgeSource) -> Slopes:
+    """Sobel gradients of a photo ``(H, W, 3)``, as `find_edges` describes them: see `Slopes`."""
     padded = cv2.copyMakeBorder(
         to_grey(photo) if source == "grey" else photo, 1, 1, 1, 1, cv2.BORDER_REPLICATE
     )
-    across, down = _upside_down_sobel(tuple(cv2.split(padded)))
-    if fit:
-        low, high = fitted_thresholds(across, down, low, high)
-    upside_down: U8 = cv2.Canny(across, down, low, high)
-    return upside_down[::-1] > 0, (low, high)
+    slopes: Slopes = _upside_down_sobel(tuple(cv2.split(padded)))
+    return slopes
+
+
+def seek(
+    edges: Bool, slopes: Slopes, thresholds: tuple[float, float], near: Int, half: int
+) -> None:
+    """Add edges, in place, where the sky model has a sure boundary and no edge lies near it.
+
+    Lower thresholds everywhere would make edges of clouds and grain. Here it is known where the
+    skyline must be, and no edge of the photo is outbid.
+
+    Args:
+        edges: ``(H, W)`` edge map.
+        slopes: Gradients of the same photo.
+        thresholds: Lower and upper Canny threshold to seek with.
+        near: ``(W,)`` row of the boundary; at the upper or lower rim or beyond where there is none.
+        half: So many rows above and below it edges are near.
+    """
+    height, width = edges.shape
+    wanted = _without_edge(edges, near, half)
+    for first, last in runs(wanted):
+        if last - first + 1 < SHORTEST_GAP * width:
+            wanted[first : last + 1] = False
+    columns = np.flatnonzero(wanted)
+    if not len(columns):
+        return
+    # a pixel more at each side: Canny compares neighbours
+    left, right = max(columns[0] - 1, 0), columns[-1] + 2
+    top, end = max(near[columns].min() - half - 1, 0), near[columns].max() + half + 2
+    part = slice(max(height - end, 0), height - top), slice(left, right)
+    across, down = (np.ascontiguousarray(one[part]) for one in slopes)
+    more = _canny((across, down), thresholds)
+    apart = np.abs(np.arange(top, top + len(more))[:, None] - near[left:right])
+    edges[top : top + len(more), left:right] |= more & (apart <= half) & wanted[left:right]
 
 
 def fitted_thresholds(across: I16, down: I16, low: float, high: float) -> tuple[float, float]:
@@ -163,8 +218,31 @@ def edge_index(edges: Bool) -> Int:
     return index
 
 
+def _canny(slopes: Slopes, thresholds: tuple[float, float]) -> Bool:
+    """Edge map of slopes, the right way up."""
+    upside_down: U8 = cv2.Canny(*slopes, *thresholds)
+    return upside_down[::-1] > 0
+
+
 @numba.njit(cache=True, nogil=True)
-def _upside_down_sobel(channels: tuple[U8, ...]) -> tuple[I16, I16]:
+def _without_edge(edges: Bool, near: Int, half: int) -> Bool:
+    """Columns ``(W,)`` that have a row to look near, and no edge there."""
+    height, width = edges.shape
+    without = np.zeros(width, np.bool_)
+    for column in range(width):
+        row = near[column]
+        if row <= 0 or row >= height:
+            continue
+        without[column] = True
+        for at in range(max(row - half, 0), min(row + half + 1, height)):
+            if edges[at, column]:
+                without[column] = False
+                break
+    return without
+
+
+@numba.njit(cache=True, nogil=True)
+def _upside_down_sobel(channels: tuple[U8, ...]) -> Slopes:
     """3x3 Sobel gradients of the channel in which they are strongest, as Canny takes them.
 
     Of the photo turned upside down: where two rows have the same gradient Canny takes the upper
@@ -204,6 +282,6 @@ def _upside_down_sobel(channels: tuple[U8, ...]) -> tuple[I16, I16]:
 
 
 def edge_settings(config: DetectorConfig) -> tuple[object, ...]:
-    """What `candidate_edges` depends on."""
+    """What `candidate_edges` depends on where there is no map of the sky."""
     thresholds = (config.low_threshold, config.high_threshold, config.fit_thresholds)
     return (config.edge_source, *thresholds, config.frame)

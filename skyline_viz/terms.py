@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, U8, Bool, Int
 from skyline_viz.edges import edge_index
+from skyline_viz.frames.boundary import between_centres, improbable
 
 Places: TypeAlias = npt.NDArray[np.integer]
 """Rows or columns of pixels ``(k,)``."""
@@ -169,15 +170,11 @@ class ClearSky(Term):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Sky(Term):
-    r"""What a pixel pays for what the sky model finds improbable if the skyline runs there.
+    """What a pixel pays for what the sky model finds improbable if the skyline runs there.
 
-    $$
-    R(i, j) = \frac{1}{H} \Big( \sum_{k < i} (1 - p(k, j)) + \sum_{k \ge i} p(k, j) \Big)
-    $$
-
-    is how much of the column, in heights of the photo, would be sky that looks like terrain or
-    terrain that looks like sky. A pixel pays for what that is above the least of its column, up to
-    a limit: so the model decides between ridges, and never outbids the only edge there is.
+    That is the share `boundary.improbable` of its column. A pixel pays for what that is above the
+    least of its column, up to a limit: so the model decides between ridges, and never outbids the
+    only edge there is.
     """
 
     sky: F32
@@ -267,12 +264,7 @@ def add_sky(cost: F32, sky: F32, weight: float, cap: float) -> None:
         weight: Cost of a whole column that is improbable.
         cap: What a pixel pays at the most.
     """
-    regions = np.float64(len(sky))
-    share = sky.T.astype(np.float64)
-    borders = np.empty((share.shape[0], share.shape[1] + 1))  # R at the borders of the regions
-    borders[:, 0] = share.sum(axis=1)
-    borders[:, 1:] = borders[:, :1] + np.cumsum(1 - 2 * share, axis=1)
-    borders *= weight / regions
+    borders = weight * improbable(sky)
     _add_sky(cost.T, borders.astype(np.float32), np.float32(cap))
 
 
@@ -285,7 +277,7 @@ def _add_sky(cost: F32, borders: F32, cap: float) -> None:
     """
     width, height = cost.shape
     count = borders.shape[1] - 1
-    left, right, sideways = _between_centres(width, borders.shape[0], width / borders.shape[0])
+    left, right, sideways = between_centres(width, borders.shape[0], width / borders.shape[0])
     region = np.empty(height, np.int32)
     inside = np.empty(height, np.float32)
     for row in range(height):
@@ -306,20 +298,6 @@ def _add_sky(cost: F32, borders: F32, cap: float) -> None:
             least = min(least, pays[row])
         for row in range(height):
             cost[column, row] += min(pays[row] - least, cap)
-
-
-@numba.njit(cache=True, nogil=True)
-def _between_centres(length: int, regions: int, side: float) -> tuple[Int, Int, F32]:
-    """For each pixel of an axis the regions before and after it, and how far it is on the way."""
-    before = np.empty(length, np.int32)
-    after = np.empty(length, np.int32)
-    share = np.empty(length, np.float32)
-    for pixel in range(length):
-        place = min(max((pixel + 0.5) / side - 0.5, 0.0), regions - 1.0)
-        before[pixel] = int(place)
-        after[pixel] = min(before[pixel] + 1, regions - 1)
-        share[pixel] = place - before[pixel]
-    return before, after, share
 
 
 @numba.njit(cache=True, nogil=True)

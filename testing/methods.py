@@ -31,6 +31,7 @@ configurations = st.builds(
     clear_sky=st.floats(0, 1e3),
     sky_weight=st.floats(0, 1e3),
     sky_cap=st.floats(0, 1e6),
+    sky_edges=st.floats(0, 1),
     delta=st.integers(0, 100_000),
     link_weight=st.floats(0, 1e6),
 )

@@ -26,6 +26,7 @@ RANGES = {
     "clear_sky": (0, 1e3),
     "sky_weight": (0, 1e3),
     "sky_cap": (0, 1e6),
+    "sky_edges": (0, 1),
     "delta": (0, 100_000),
     "link_weight": (0, 1e6),
 }
@@ -57,6 +58,7 @@ def test_the_published_settings():
         non_edge_cost=3,
         clear_sky=0,
         sky_weight=0,
+        sky_edges=1,
         delta=1,
         link_weight=0,
     )

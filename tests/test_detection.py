@@ -66,7 +66,7 @@ def test_every_stage_is_timed(detector):
 def test_stages_follow_from_each_other(config):
     photo, _ = mountains(seed=2)
     detection = Detector(config=config).detect(photo)
-    edges, thresholds = candidate_edges(photo, config)
+    edges, thresholds = candidate_edges(photo, config, sky=detection.sky)
     assert np.array_equal(detection.edges, edges)
     assert detection.thresholds == thresholds
     rows, columns = edge_pixels(edges)

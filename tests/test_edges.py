@@ -1,10 +1,13 @@
 """Edges: what colour sees and grey does not, where a sharp skyline lies, fitted thresholds."""
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
 
 from skyline_viz.config import DetectorConfig
 from skyline_viz.edges import (
@@ -270,3 +273,74 @@ def test_grey_has_the_usual_weights():
     photo[0, :3] = np.eye(3) * 255
     photo[0, 3] = 255
     assert to_grey(photo).tolist() == [[76, 150, 29, 255]]
+
+
+# Where the sky model has a sure boundary
+
+FAINT = {"sky": (150, 155, 160), "terrain": (144, 149, 154)}
+
+
+def sky_above(row, height=40, columns=6, sure=1.0):
+    """A map that has its boundary at a row."""
+    above = np.arange(height)[:, None] < row
+    return np.where(above, sure, 1 - sure).astype(np.float32).repeat(columns, axis=1)
+
+
+def test_a_faint_ridge_has_edges_where_the_sky_model_sees_it():
+    photo, config = step(25, **FAINT), DetectorConfig(fit_thresholds=False)
+    assert not candidate_edges(photo, config)[0].any()
+    found, thresholds = candidate_edges(photo, replace(config, sky_edges=0.1), sky=sky_above(25))
+    assert found[25].all()
+    assert thresholds == (50, 220)
+
+
+@pytest.mark.parametrize(
+    "sky",
+    [sky_above(10), sky_above(25, sure=0.9), sky_above(0), sky_above(40)],
+    ids=["elsewhere", "unsure", "no sky", "no terrain"],
+)
+def test_and_none_without_a_sure_boundary_there(sky):
+    config = DetectorConfig(fit_thresholds=False, sky_edges=0.1)
+    assert not candidate_edges(step(25, **FAINT), config, sky=sky)[0].any()
+
+
+def test_edges_that_are_there_are_enough():
+    photo, sky = grainy(step(25), 2), sky_above(25)
+    sharp, lower = (candidate_edges(photo, DetectorConfig(sky_edges=share))[0] for share in (1, 0))
+    assert sharp[24:27].any(axis=0).all()
+    assert np.array_equal(candidate_edges(photo, DetectorConfig(sky_edges=0), sky=sky)[0], sharp)
+    assert np.array_equal(lower, sharp)  # without a map the setting means nothing
+
+
+def test_a_gap_of_a_few_columns_is_no_reason_to_seek():
+    photo = step(25).repeat(5, axis=1)
+    photo[:, 100:104] = photo[0, 0]  # the terrain is missing, but for a trace
+    photo[25:, 100:104] -= 6
+    config = DetectorConfig(fit_thresholds=False, sky_edges=0.1)
+    plain = candidate_edges(photo, config)[0]
+    assert np.array_equal(candidate_edges(photo, config, sky=sky_above(25))[0], plain)
+
+
+@given(hnp.arrays(np.uint8, (30, 64, 3)), st.integers(0, 30), st.integers(0, 3), st.integers(0, 3))
+@STEADY
+def test_sought_edges_are_only_added_near_the_boundary(photo, row, top, left):
+    config, sky = DetectorConfig(sky_edges=0.1), sky_above(row, 30)
+    frame = Frame(top=top, left=left)
+    plain, thresholds = candidate_edges(photo, config, frame)
+    sought, same = candidate_edges(photo, config, frame, sky)
+    assert same == thresholds
+    assert (sought | ~plain).all()
+    added = np.flatnonzero((sought & ~plain).any(axis=1))
+    assert (np.abs(added - row) <= 1).all()
+    assert not sought[:top].any()
+    assert not sought[:, :left].any()
+
+
+def test_sought_edges_are_those_of_lower_thresholds_in_the_whole_photo():
+    photo = grainy(step(25, **FAINT).repeat(2, axis=1), 2)
+    lower = DetectorConfig(fit_thresholds=False, low_threshold=0.0, high_threshold=0.0)
+    seeking = replace(DetectorConfig(fit_thresholds=False), sky_edges=0.0)
+    every = candidate_edges(photo, lower)[0]
+    sought = candidate_edges(photo, seeking, sky=sky_above(25))[0]
+    assert sought.any()
+    assert np.array_equal(sought[24:27], every[24:27])

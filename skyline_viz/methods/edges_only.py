@@ -76,7 +76,7 @@ class EdgesOnly(Configured):
         seconds: dict[str, float] = {}
         with timed(seconds, "edges"):
             inside = without_frame(photo, find_frame(photo))
-            edges, _ = find_edges(inside, "grey", self.low_threshold, self.high_threshold)
+            edges = find_edges(inside, "grey", self.low_threshold, self.high_threshold)
         with timed(seconds, "cost"):
             below = self.row_cost * np.arange(1, len(edges) + 1, dtype=np.float32) ** 2
             # not to begin on an edge has to cost more than to begin on the lowest one

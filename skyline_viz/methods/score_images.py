@@ -142,7 +142,7 @@ class DenseScores(LearnedMethod):
             case "msee":
                 return stable_edges(photo)
             case "canny":
-                return find_edges(photo, "grey", *CANNY)[0]
+                return find_edges(photo, "grey", *CANNY)
         return np.ones(dense.shape, np.bool_)
 
     def _cost(self, photo: U8, dense: F32, edges: Bool) -> tuple[F32, float, float]:
@@ -224,7 +224,7 @@ def draw_samples(photo: U8, truth: Skyline, seed: int) -> tuple[Int, Int, Bool]:
     on_line = np.flatnonzero(truth.visible & (line < height)).astype(np.int32)
     rng = np.random.default_rng([seed, zlib.crc32(photo.tobytes())])
     off_line = ~near_truth((height, width), truth, BAND)
-    edges, _ = find_edges(photo, "grey", *CANNY)
+    edges = find_edges(photo, "grey", *CANNY)
     rows, columns = [line[on_line]], [on_line]
     for where in (edges & off_line, off_line):
         found = np.flatnonzero(where)

@@ -111,7 +111,7 @@ def test_fusion_with_the_gradient(trained):
 
 def test_fusion_with_edges(trained):
     dense = trained.dense_score(SCENE.photo)
-    canny, _ = find_edges(SCENE.photo, "grey", 50, 220)
+    canny = find_edges(SCENE.photo, "grey", 50, 220)
     for name, edges in (("msee", stable_edges(SCENE.photo)), ("canny", canny)):
         detection = found(trained, f"svm-dcsi-{name}", w3=0.6)
         np.testing.assert_array_equal(detection.edges, edges)

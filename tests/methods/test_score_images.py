@@ -46,7 +46,7 @@ def test_samples_are_the_line_and_pixels_off_it():
     assert on_line.sum() == 150
     off = np.abs(rows - line[columns])[~on_line]
     assert off.min() > BAND
-    edges, _ = find_edges(SCENE.photo, "grey", 50, 220)
+    edges = find_edges(SCENE.photo, "grey", 50, 220)
     hard = edges & (np.abs(np.arange(90)[:, None] - line) > BAND)
     drawn_hard = hard[rows, columns][~on_line].sum()
     assert drawn_hard >= min(hard.sum(), 150)
