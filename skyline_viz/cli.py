@@ -6,7 +6,7 @@ from typing import Annotated, Any, Union
 import tyro
 
 from skyline_viz import __version__
-from skyline_viz.command_line.methods import Methods, described, spelt_out
+from skyline_viz.command_line.methods import Methods, described, spelt_out, trained_from
 from skyline_viz.command_line.program import Command, parsed, run_program
 from skyline_viz.commands.demo import Demo
 from skyline_viz.commands.detect import Detect
@@ -45,17 +45,21 @@ def parse(arguments: list[str]) -> Command:
         ValueError: A setting has a value that it refuses.
     """
     words = spelt_out(arguments, masks=_READS_TRUTHS)
-    return parsed("skyline-viz", _ABOUT, _commands(described(words)), words)
+    methods = described(words)
+    training = methods.config
+    if words[:1] == ["train"]:
+        training = trained_from(words, methods)
+    return parsed("skyline-viz", _ABOUT, _commands(methods, TrainingConfig.of(training)), words)
 
 
-def _commands(methods: Methods) -> Any:  # noqa: ANN401  # a union that is made at run time
+def _commands(methods: Methods, training: TrainingConfig) -> Any:  # noqa: ANN401  # made at run time
     """All commands as one type for tyro, with what was described as defaults."""
     missing: Any = tyro.MISSING
     defaults = {
         "detect": Detect(missing, methods=methods),
         "inspect": Inspect(missing, methods=methods),
         "gallery": GalleryCommand(methods=methods),
-        "train": Train(missing, missing, training=TrainingConfig.of(methods.config)),
+        "train": Train(missing, missing, training=training),
         "evaluate": Evaluate(missing, methods=methods),
         "tables": Tables(missing, methods=methods),
         "diagnose": Diagnose(missing, methods=methods),

@@ -103,7 +103,7 @@ class SkyModel:
         """
         if text in SHIPPED:
             return _shipped(str(text))
-        if not str(text).endswith(".onnx"):
+        if Path(text).suffix.lower() != ".onnx":
             raise MethodError(f"{text} is no sky model: name small, large, or a FILE.onnx.")
         return cls.load(text)
 
@@ -126,11 +126,16 @@ class SkyModel:
     @cached_property
     def learned_from(self) -> str:
         """Names of the data sets that it was trained on, ``", "`` between; empty if not known."""
+        return ", ".join(self.photos_learned)
+
+    @cached_property
+    def photos_learned(self) -> dict[str, int]:
+        """From how many photos of each data set it has learned; empty if not known."""
         try:
-            trained = json.loads(read_notes(self.network)[TRAINED])
-            return ", ".join(map(str, trained["photos"]))
-        except (ValueError, KeyError, TypeError):
-            return ""  # a network of somebody's
+            photos = json.loads(read_notes(self.network)[TRAINED])["photos"]
+            return {str(name): int(count) for name, count in photos.items()}
+        except (ValueError, KeyError, TypeError, AttributeError):
+            return {}  # a network of somebody's
 
     def sky(self, photo: U8) -> F32:
         """How probably each region of a photo is sky, ``(h, w)`` float32 in [0, 1].

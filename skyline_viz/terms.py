@@ -265,11 +265,12 @@ def add_sky(cost: F32, sky: F32, weight: float, cap: float) -> None:
         cap: What a pixel pays at the most.
     """
     borders = weight * improbable(sky)
-    _add_sky(cost.T, borders.astype(np.float32), np.float32(cap))
+    between = between_centres(cost.shape[1], len(borders))
+    _add_sky(cost.T, borders.astype(np.float32), *between, np.float32(cap))
 
 
 @numba.njit(cache=True, nogil=True)
-def _add_sky(cost: F32, borders: F32, cap: float) -> None:
+def _add_sky(cost: F32, borders: F32, left: Int, right: Int, sideways: F32, cap: float) -> None:
     """`add_sky` with the weighted sums at borders ``(w, h + 1)``, and costs ``(W, H)``.
 
     A column is done while it is in the fastest cache: the line of its borders, its pixels and their
@@ -277,7 +278,6 @@ def _add_sky(cost: F32, borders: F32, cap: float) -> None:
     """
     width, height = cost.shape
     count = borders.shape[1] - 1
-    left, right, sideways = between_centres(width, borders.shape[0], width / borders.shape[0])
     region = np.empty(height, np.int32)
     inside = np.empty(height, np.float32)
     for row in range(height):

@@ -15,7 +15,7 @@ import tyro
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.settings import BankFile, Preset
 from skyline_viz.config import DetectorConfig, refuse_gone
-from skyline_viz.system.settings import spelt
+from skyline_viz.system.settings import MethodError, spelt
 
 if TYPE_CHECKING:
     from skyline_viz.method import Configurable
@@ -26,7 +26,7 @@ MethodTexts: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="METHO
 SkyModelName: TypeAlias = Annotated[str | None, tyro.conf.arg(metavar="{small,large,FILE.onnx}")]
 """A sky model as `SkyModel.named` takes it."""
 
-_SKY_MODEL = re.compile(r"small|large|.*\.onnx", re.DOTALL)
+_SKY_MODEL = re.compile(r"small|large|.*[./\\].*", re.DOTALL)  # a name, or some file
 
 
 @dataclass(frozen=True)
@@ -192,6 +192,31 @@ def described(arguments: Sequence[str]) -> Methods:
     elif banks:
         config = _brought(banks[-1])
     return Methods(config=config, ours=ours)
+
+
+def trained_from(arguments: Sequence[str], methods: Methods) -> DetectorConfig:
+    """Settings that training starts from, as a command line describes them before it is parsed.
+
+    Those of a ``--method`` that is a detector of ours, or of the short forms.
+
+    >>> words = ["train", "hills", "--method", "paper:delta=4"]
+    >>> trained_from(words, described(words)).name
+    'paper:delta=4'
+    """
+    named = [after for word, after in pairwise(arguments) if word == "--method"]
+    named += [word.removeprefix("--method=") for word in arguments if word.startswith("--method=")]
+    if not named or named[-1].partition(":")[0] not in DetectorConfig.presets():
+        return methods.config
+    from skyline_viz.detector import Detector
+    from skyline_viz.methods.registry import find_method
+
+    try:
+        method = find_method(named[-1])
+    except MethodError:  # told later
+        return methods.config
+    if isinstance(method, Detector) and method.config != DetectorConfig():
+        return method.config
+    return methods.config
 
 
 def _brought(bank: str) -> DetectorConfig:

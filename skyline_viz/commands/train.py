@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
@@ -139,7 +139,10 @@ class Train:
         )
         with replacing(self.out) as temporary:
             temporary.write_bytes(model.network)
-        tell(f"photos used  {sum(map(len, sets.values())) - len(failures)} of {photos}")
+        used = sum(model.photos_learned.values())
+        tell(f"photos used  {used} of {photos}")
+        if nothing := sum(map(len, sets.values())) - len(failures) - used:
+            tell(f"left out     {counted(nothing, 'photo')} whose truth shows no line")
         tell(f"written      {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
 
@@ -149,13 +152,13 @@ class Train:
         if self.pretrained is not None:
             raise UsageError("--pretrained is for FCNs and SegNet, not for our filter bank.")
         training = self.training
-        if method.config != DetectorConfig():
-            if training.detector != DetectorConfig():
-                raise UsageError(
-                    f"settings are given twice; leave out --preset and --training.detector, or "
-                    f"name default instead of {self.method}."
-                )
-            training = replace(TrainingConfig.of(method.config), **self._said())
+        if method.config != DetectorConfig() and (
+            self.preset != "default" or training.detector != method.config
+        ):
+            raise UsageError(
+                f"settings are given twice; leave out --preset and --training.detector, or "
+                f"name default instead of {self.method}."
+            )
         workers = foresee([item for items in sets.values() for item in items], self.workers)
         bank, failures = evaluation.train_on_several(
             sets, training, seed=self.seed, workers=workers
@@ -173,12 +176,6 @@ class Train:
         )
         tell(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
-
-    def _said(self) -> dict[str, Any]:
-        """Single settings of the training that were named, but for those of the detector."""
-        usual = TrainingConfig()
-        said = {one.name: getattr(self.training, one.name) for one in fields(usual)}
-        return {name: value for name, value in said.items() if value != getattr(usual, name)}
 
     def _pretrained(self, method: Configurable) -> Configurable:
         from skyline_viz.methods.parsing import SceneParsing

@@ -78,11 +78,11 @@ def write_photos(path: str | os.PathLike[str], found: Evaluation) -> None:
 
 
 def _settings(method: Method) -> dict[str, object]:
-    """Settings and bank of our detector; of another method its name says all."""
+    """Settings, bank and sky model, if it runs, of our detector; of another its name says all."""
     if not isinstance(method, Detector):
         return {}
     about = {"config": asdict(method.config), "bank": asdict(method.bank.provenance)}
-    return {**about, "sky": method.sky.name}
+    return {**about, "sky": method.sky.name if method.config.sky_weight else None}
 
 
 def _without_nan(summary: Summary) -> dict[str, object]:

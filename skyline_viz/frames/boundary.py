@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
 from skyline_viz.arrays import F32, F64, Int
@@ -57,7 +56,7 @@ def boundary(sky: F32, height: int, width: int) -> tuple[F32, F32]:
         ([100.0, 100.0, 100.0, 100.0, 100.0], 0.025)
     """
     borders = improbable(sky).astype(np.float32)
-    left, right, sideways = between_centres(width, len(borders), width / len(borders))
+    left, right, sideways = between_centres(width, len(borders))
     here = borders[left]
     across = here + sideways[:, None] * (borders[right] - here)
     best = across.argmin(axis=1)
@@ -65,21 +64,19 @@ def boundary(sky: F32, height: int, width: int) -> tuple[F32, F32]:
     return rows, across[np.arange(width), best]
 
 
-@numba.njit(cache=True, nogil=True)
-def between_centres(length: int, regions: int, side: float) -> tuple[Int, Int, F32]:
+def between_centres(length: int, regions: int) -> tuple[Int, Int, F32]:
     """For each pixel of an axis the regions before and after it, and how far it is on the way.
 
     Args:
         length: Pixels of the axis.
         regions: Regions that it has.
-        side: Pixels of a region.
+
+    Examples:
+        >>> before, after, share = between_centres(4, 2)
+        >>> before.tolist(), after.tolist(), share.tolist()
+        ([0, 0, 0, 1], [1, 1, 1, 1], [0.0, 0.25, 0.75, 0.0])
     """
-    before = np.empty(length, np.int32)
-    after = np.empty(length, np.int32)
-    share = np.empty(length, np.float32)
-    for pixel in range(length):
-        place = min(max((pixel + 0.5) / side - 0.5, 0.0), regions - 1.0)
-        before[pixel] = int(place)
-        after[pixel] = min(before[pixel] + 1, regions - 1)
-        share[pixel] = place - before[pixel]
-    return before, after, share
+    places = np.clip((np.arange(length) + 0.5) * (regions / length) - 0.5, 0, regions - 1)
+    before = places.astype(np.int32)
+    after = np.minimum(before + 1, regions - 1).astype(np.int32)
+    return before, after, (places - before).astype(np.float32)

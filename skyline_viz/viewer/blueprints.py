@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+import numpy as np
 import rerun.blueprint as rrb
 
 from skyline_viz.stage import SKY, Quantity
@@ -293,9 +294,13 @@ def _with_halos(lines: Iterable[str] = _LINES) -> list[str]:
 
 
 def _grid(contents: Contents, views: Sequence[rrb.View], name: str) -> rrb.Container:
-    """Two columns for wide photos, three for others: a panorama needs the width of the window."""
+    """Two columns for wide photos, three for others: a panorama needs the width of the window.
+
+    Rows with a view less are filled by those that they have.
+    """
     columns = 2 if contents.width > 1.6 * contents.height else 3
-    return rrb.Grid(*views, grid_columns=min(columns, len(views)), name=name)
+    rows = np.array_split(np.arange(len(views)), -(-len(views) // columns))
+    return rrb.Vertical(*(rrb.Horizontal(*(views[at] for at in row)) for row in rows), name=name)
 
 
 def _with_panels(tabs: list[rrb.Container], contents: Contents, active: str) -> rrb.Blueprint:

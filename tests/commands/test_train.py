@@ -1,6 +1,7 @@
 """``skyline-viz train``: the bank that it writes, and what it says about it."""
 
 import numpy as np
+import pytest
 
 import skyline_viz as sv
 from testing.programs.commands import scene, write_scene, write_scenes
@@ -100,3 +101,13 @@ def test_the_published_method_learns_as_published(say, hills, tmp_path):
     say("train", hills, "--out", "c.npz", "--method", "paper", "--training.pooling", "0")
     made = sv.FilterBank.load(tmp_path / "c.npz").provenance
     assert (made.reach, made.smoothness, made.pooling) == (0, 100, 0)
+
+
+@pytest.mark.parametrize("reach", [1, 3])  # 3 is that of the default
+def test_single_settings_change_those_of_a_named_method(say, hills, tmp_path, reach):
+    named = ("--method", "paper:delta=2", f"--training.reach={reach}", "--out", "b.npz")
+    assert say("train", hills, *named)[0] == 0
+    made = sv.FilterBank.load(tmp_path / "b.npz").provenance
+    published = sv.TrainingConfig.of(sv.DetectorConfig.paper())
+    assert (made.reach, made.smoothness) == (reach, published.smoothness)
+    assert sv.Detector.load(tmp_path / "b.npz").config.name == "paper:delta=2"

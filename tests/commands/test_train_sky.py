@@ -1,10 +1,12 @@
 """``skyline-viz train --learn-sky``: the network that it writes, and what it refuses."""
 
+import numpy as np
 import pytest
 
 from skyline_viz.sky_model import SkyModel
+from skyline_viz.skyline import Skyline
 from testing.deep import needs_deep
-from testing.programs.commands import write_scene, write_scenes
+from testing.programs.commands import scene, write_scene, write_scenes
 
 SHORT = ("--learn-sky", "small", "--steps", "2", "--out", "sky.onnx")
 
@@ -25,6 +27,21 @@ def test_a_teacher_labels_photos_without_a_truth(say, hills, tmp_path):
     status, out, _ = say("train", hills, "bare", *taught)
     assert status == 0
     assert "5 of 5" in out
+
+
+@needs_deep
+def test_photos_whose_truth_shows_no_line_are_counted_apart(say, tmp_path):
+    write_scenes(tmp_path / "some", 2)
+    file = tmp_path / "some" / "masks" / "p0"
+    truth = next(file.parent.glob("p0.*"))
+    truth.unlink()
+    width = scene(0)[1].width
+    hidden = Skyline(np.zeros(width, np.float32), np.zeros(width, bool))
+    hidden.write_csv(file.with_suffix(".csv"))
+    status, out, _ = say("train", "some", *SHORT)
+    assert status == 0
+    assert "1 of 2" in out
+    assert "left out     1 photo whose truth shows no line" in out
 
 
 @needs_deep

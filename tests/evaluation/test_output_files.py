@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from skyline_viz.config import DetectorConfig
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.output_files import (
@@ -39,6 +40,15 @@ def test_the_summary_has_the_figures_of_each_method_under_its_name(tmp_path):
     assert images == detector.bank.provenance.images > 0
     assert document["settings"]["edges"] == {}
     assert document["failed"] == [{"name": "b", "reason": "it is gone"}]
+
+
+@pytest.mark.parametrize(("config", "sky"), [("default", "small"), ("paper", None)])
+def test_a_sky_model_is_told_where_it_ran(tmp_path, config, sky):
+    path = tmp_path / "summary.json"
+    detector = Detector(config=DetectorConfig.presets()[config])
+    found = Evaluation({config: []}, (), {config: detector}, folds=2, seed=3)
+    write_summary(path, found, {})
+    assert json.loads(path.read_text("utf-8"))["settings"][config]["sky"] == sky
 
 
 def test_a_line_for_each_photo_and_method(tmp_path):
