@@ -269,7 +269,7 @@ class CostModel:
         added[rows, columns - first] = True
         change = np.zeros(added.shape[::-1])
         for term in self.nodal:
-            answer = term.answer(added) if term.weight else None
+            answer = term.answer(added, first) if term.weight else None
             if answer is not None:
                 change += answer.T
         change[columns - first, rows] += price - self["no edge"].at(rows, columns)

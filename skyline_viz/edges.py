@@ -40,8 +40,9 @@ SURE = 0.05
 """The sky model is sure of its boundary where no more than this share of the column is improbable,
 see `boundary.improbable`."""
 
-NEAR_BOUNDARY = 0.03
-"""An edge lies near the boundary up to this distance, as a share of the photo's height."""
+REGIONS = 100
+"""An edge is near the boundary within the height of a region: of one of the map, or of one of so
+many if the map has more."""
 
 SHORTEST_GAP = 1 / 64
 """Edges are sought where they are missing in this share of the columns, one after the other."""
@@ -89,7 +90,7 @@ def candidate_edges(
         where, doubt = boundary(sky, height, width)
         lower = thresholds[0] * config.sky_edges, thresholds[1] * config.sky_edges
         near = np.where(doubt > SURE, -1, np.rint(where) - rows.start)[columns].astype(np.int32)
-        seek(found, slopes, lower, near, math.ceil(NEAR_BOUNDARY * height))
+        seek(found, slopes, lower, near, math.ceil(height / min(len(sky), REGIONS)))
     if found.shape == (height, width):
         return found, thresholds
     edges = np.zeros((height, width), np.bool_)

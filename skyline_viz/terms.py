@@ -28,6 +28,10 @@ CLEAR_SKY_ROWS = 3
 CLEAR_SKY_COLUMNS = 9
 """Columns over which the edge pixels above a pixel are averaged."""
 
+CLEAR_SKY_CAP = 1.0
+"""What a pixel pays for them at the most: however full of clouds a sky is, the only edge of a
+terrain costs no more than a pixel without one."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Term:
@@ -79,17 +83,18 @@ class Term:
         """What a line ``(W,)`` pays in each column."""
         return self.at(rows, np.arange(len(rows)))
 
-    def answer(self, added: Bool) -> F32 | None:
+    def answer(self, added: Bool, first: int) -> F32 | None:
         """What changes where there are more edges, besides at these pixels; None for nothing.
 
         Args:
             added: ``(H, w)`` further edge pixels in some neighbouring columns; there are none near
                 its first and last column unless the photo ends there.
+            first: The first of these columns.
 
         Returns:
             ``(H, w)`` change of the nodal costs.
         """
-        del added
+        del added, first
         return None
 
 
@@ -151,21 +156,31 @@ class ClearSky(Term):
     """What each edge pixel above a pixel adds to its cost: above a skyline is nothing but sky.
 
     Edge pixels up to `CLEAR_SKY_ROWS` above do not count, and their number is the mean over
-    `CLEAR_SKY_COLUMNS` columns, as far as these are inside the photo.
+    `CLEAR_SKY_COLUMNS` columns, as far as these are inside the photo. A pixel pays `CLEAR_SKY_CAP`
+    at the most.
     """
 
     def add(self, cost: F32) -> None:
         """See `Term.add`."""
         self._add(cost, self.edges)
 
-    def answer(self, added: Bool) -> F32:
-        """See `Term.answer`: the term is linear in the edges."""
-        change = np.zeros(added.shape[::-1], np.float32).T
-        self._add(change, added)
+    def answer(self, added: Bool, first: int) -> F32:
+        """See `Term.answer`."""
+        before = min(first, CLEAR_SKY_COLUMNS // 2)  # edges of columns beside those asked for
+        count = added.shape[1]
+        there = self.edges[:, first - before : first + count + CLEAR_SKY_COLUMNS // 2]
+        all_of_them = there.copy()
+        asked = slice(before, before + count)
+        all_of_them[:, asked] |= added
+        costs = np.zeros((2, *there.shape[::-1]), np.float32)
+        self._add(costs[0].T, all_of_them)
+        self._add(costs[1].T, there)
+        change: F32 = (costs[0] - costs[1]).T[:, asked]
         return change
 
     def _add(self, cost: F32, edges: Bool) -> None:
-        _add_clear_sky(cost.T, cv2.transpose(edges.view(np.uint8)), np.float32(self.weight))
+        across = cv2.transpose(np.ascontiguousarray(edges).view(np.uint8))
+        _add_clear_sky(cost.T, across, np.float32(self.weight), np.float32(CLEAR_SKY_CAP))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -301,7 +316,7 @@ def _add_sky(cost: F32, borders: F32, left: Int, right: Int, sideways: F32, cap:
 
 
 @numba.njit(cache=True, nogil=True)
-def _add_clear_sky(cost: F32, edges: U8, weight: float) -> None:
+def _add_clear_sky(cost: F32, edges: U8, weight: float, cap: float) -> None:
     """Add the weighted number of edge pixels above, averaged over columns; both ``(W, H)``."""
     width, height = cost.shape
     half = CLEAR_SKY_COLUMNS // 2
@@ -318,4 +333,4 @@ def _add_clear_sky(cost: F32, edges: U8, weight: float) -> None:
         above = 0
         for row in range(CLEAR_SKY_ROWS + 1, height):
             above += window[row - CLEAR_SKY_ROWS - 1]
-            cost[column, row] += step * above
+            cost[column, row] += min(step * above, cap)

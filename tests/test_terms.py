@@ -26,13 +26,13 @@ def some_edges(seed, height=16, width=22):
 
 
 def slow_clear_sky(edges, weight):
-    """Weighted mean number of edge pixels more than 3 rows above, over 9 columns."""
+    """Weighted mean number of edge pixels more than 3 rows above, over 9 columns, up to 1."""
     height, width = edges.shape
     added = np.zeros(edges.shape)
     for row in range(height):
         for column in range(width):
             window = edges[: max(row - 3, 0), max(column - 4, 0) : column + 5]
-            added[row, column] = weight * window.sum() / window.shape[1]
+            added[row, column] = min(weight * window.sum() / window.shape[1], 1)
     return added
 
 
@@ -81,7 +81,7 @@ def test_a_term_says_what_it_adds_and_all_else_follows():
 
     term = One(name="one", weight=2.0, edges=some_edges(1))
     assert (term.map() == 2).all()
-    assert term.answer(some_edges(2)) is None
+    assert term.answer(some_edges(2), 0) is None
     assert not One(name="one", weight=0.0, edges=some_edges(1)).map().any()
     with pytest.raises(NotImplementedError):
         Term(name="none", weight=1.0, edges=some_edges(1)).map()
@@ -110,6 +110,13 @@ def test_an_edge_is_felt_four_rows_below():
     assert np.flatnonzero(added.any(axis=1)).tolist() == list(range(6, 12))
     assert np.flatnonzero(added.any(axis=0)).tolist() == list(range(11, 20))
     assert np.allclose(added[6:, 11:20], 0.1)
+
+
+def test_a_sky_full_of_clouds_costs_no_more_than_a_pixel_without_an_edge():
+    edges = np.ones((40, 20), bool)
+    added = clear_sky(edges, 0.1)
+    assert (np.diff(added[4:14], axis=0) > 0.09).all()
+    assert (added[14:] == 1).all()
 
 
 def test_columns_outside_the_photo_are_no_clear_sky():
