@@ -75,8 +75,8 @@ sky: .venv/.installed-dev  ## Train the shipped sky models; DATA=FOLDER as for b
 	    --out $(SKY_SCENES)
 	.venv/bin/skyline-viz render --kind all --camera any --seed 2000 --count 20 --width 360 --height 480 \
 	    --out $(SKY_SCENES)
-	$(LEARN_SKY) --learn-sky small --out skyline_viz/sky_small.onnx
-	$(LEARN_SKY) --learn-sky large --steps 2200 --out skyline_viz/sky_large.onnx
+	$(LEARN_SKY) --learn-sky small --steps 14000 --out skyline_viz/sky_small.onnx
+	$(LEARN_SKY) --learn-sky large --steps 5000 --out skyline_viz/sky_large.onnx
 
 LOCK = .venv/bin/uv pip compile --quiet $(if $(UPGRADE),--upgrade) --universal --python-version 3.11 --generate-hashes \
     --no-emit-index-url --no-header pyproject.toml --group build
