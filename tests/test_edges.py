@@ -349,7 +349,7 @@ def test_sought_edges_are_those_of_lower_thresholds_in_the_whole_photo():
 @pytest.mark.parametrize(("rows", "sought"), [(40, False), (100, True), (400, True)])
 def test_near_is_the_height_of_a_region_of_the_map(rows, sought):
     photo = np.full((200, 60, 3), 150, np.uint8)
-    photo[100:] -= 5  # the faint ridge, and a stronger edge 4 rows below it
+    photo[100:] -= 8  # the faint ridge, and a stronger edge 4 rows below it
     photo[104:] = 20
     config = DetectorConfig(fit_thresholds=False, sky_edges=0.1)
     edges = candidate_edges(photo, config, sky=sky_above(rows // 2, rows))[0]
