@@ -47,7 +47,8 @@ class Train:
     that learn, or a class of yours, package.module:Class."""
 
     learn_sky: SizeName | None = None
-    """Learn a sky model of this size instead of filters: a FILE.onnx for --sky; the small size takes half an hour."""
+    """Learn a sky model of this size instead of filters: a FILE.onnx for --sky; the small size takes
+    half an hour."""
 
     teacher: Annotated[Path | None, tyro.conf.arg(metavar="FILE.onnx")] = None
     """Sky network that says what is sky in photos without a truth, for --learn-sky."""

@@ -8,6 +8,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.config import DetectorConfig
 from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
+from testing.networks import bright_model
 from testing.recordings import banks_of_sizes, scene
 
 SIZES = (3, 7, 11)
@@ -32,7 +33,7 @@ CONFIGS = {
 @pytest.fixture(scope="module")
 def found():
     photo, truth = scene(noise=25)
-    return sv.Detector().detect(photo), truth
+    return sv.Detector(sky=bright_model()).detect(photo), truth
 
 
 @pytest.fixture(scope="module")

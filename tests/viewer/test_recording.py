@@ -15,6 +15,7 @@ from skyline_viz.viewer.blueprints import TABS
 from skyline_viz.viewer.column_views import path_costs
 from skyline_viz.viewer.stage_maps import LEAN_PIXELS, shown_pixels
 from testing import ROOT
+from testing.networks import bright_model
 from testing.recordings import Read, drawn_rows, scene, verify, visible_rows
 
 HEIGHT, WIDTH = 90, 120
@@ -217,7 +218,7 @@ def test_a_lean_recording_of_rough_terrain_is_small(tmp_path):
     calm, _ = scene(519, 1388, noise=1)
     sky = truth.to_mask(519)
     photo[sky] = calm[sky]
-    detection = sv.Detector().detect(photo)
+    detection = sv.Detector(sky=bright_model()).detect(photo)
     assert len(detection.scores) > 100_000
     read, _ = record(tmp_path / "a.rrd", detection, truth, fidelity="lean")
     photo_bytes = len(read.last(entities.PHOTO, "blob").as_py()[0])
