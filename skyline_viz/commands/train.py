@@ -47,7 +47,7 @@ class Train:
     that learn, or a class of yours, package.module:Class."""
 
     learn_sky: SizeName | None = None
-    """Learn a sky model of this size instead of filters: a FILE.onnx for --sky; the small size takes
+    """Learn a sky model of this size instead of filters: a FILE.onnx for --sky; the small one takes
     half an hour."""
 
     teacher: Annotated[Path | None, tyro.conf.arg(metavar="FILE.onnx")] = None

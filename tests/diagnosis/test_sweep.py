@@ -108,6 +108,6 @@ def test_filter_sizes_are_those_of_the_banks(found, banks):
     assert sweep.present == 7
     assert "2 photos of two scenes" in sweep.note
     for (_, detection), bank in zip(sweep.detections(found[0]), banks, strict=True):
-        alone = sv.Detector(bank).detect(found[0].photo)
+        alone = sv.Detector(bank, sky=found[0].detector.sky).detect(found[0].photo)
         assert np.array_equal(detection.scores, alone.scores)
         assert np.array_equal(detection.skyline.rows, alone.skyline.rows)
