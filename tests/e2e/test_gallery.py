@@ -14,7 +14,6 @@ from PIL import Image
 from skyline_viz.cli import main
 from skyline_viz.command_line.inputs import collect
 from skyline_viz.commands.gallery import PICTURE, build
-from skyline_viz.detector import Detector
 from skyline_viz.diagnosis.causes import CAUSES
 from skyline_viz.gallery.flags import Change, change_flags, read_flags
 from skyline_viz.gallery.store import Gallery
@@ -27,6 +26,7 @@ from skyline_viz.viewer.process import (
 )
 from skyline_viz.viewer.rerun_internals import program
 from testing import SAMPLES, until
+from testing.detections import WITHOUT_SKY
 from testing.programs.robot import Robot, listening, viewer_port
 
 NAMES = ["hazy-1", "spires-5", "rover-2"]  # the worst first
@@ -46,7 +46,7 @@ def photos(tmp_path_factory):
 @pytest.fixture(scope="module")
 def built(photos, tmp_path_factory):
     folder = tmp_path_factory.mktemp("gallery")
-    detector = Detector()
+    detector = WITHOUT_SKY
     entries, failures = build(folder, collect([photos]), detector, workers=1)
     assert failures == []
     return Gallery(folder), entries
