@@ -21,7 +21,7 @@ from skyline_viz.edges import edge_pixels
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.frames.frame import Frame
 from skyline_viz.frames.visibility import Visibility
-from skyline_viz.path import shortest_path
+from skyline_viz.path import forward_costs, shortest_path
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage import (
     BIN,
@@ -83,9 +83,6 @@ class Detection:
     path_cost: float
     """Nodal and link costs along the path."""
 
-    forward: F64
-    """``(H, W)`` float64 cost of the cheapest path from the first column to each pixel."""
-
     seconds: dict[str, float]
     """Seconds of each stage."""
 
@@ -117,6 +114,16 @@ class Detection:
     def starved(self) -> Bool:
         """``(n,)`` edge pixels whose score was learned from too little."""
         return np.zeros(len(self.scores), np.bool_)
+
+    @cached_property
+    def forward(self) -> F64:
+        """``(H, W)`` float64 cost of the cheapest path from the first column to each pixel.
+
+        Made when first asked for: a search, and twice the memory of the costs.
+        """
+        forward = forward_costs(self.cost, self.delta, self.link_weight)
+        read_only(forward)
+        return forward
 
     @property
     def confidence(self) -> float | None:
@@ -180,7 +187,7 @@ class Detection:
         return [f"Method {self.method}."]
 
     def uncertainty(self) -> Uncertainty:
-        """How sure the path is: margins and detours. Takes one more path search."""
+        """How sure the path is: margins and detours. Takes two more path searches."""
         return uncertainty(self.cost, self.forward, self.delta, self.link_weight)
 
     def margins(self) -> F64:
@@ -363,7 +370,6 @@ def solve_detection(
         scores=scores,
         cost=cost,
         path_cost=path.cost,
-        forward=path.forward,
         seconds=seconds,
         cost_model=CostModel.given(
             cost,

@@ -346,7 +346,6 @@ class Detector:
             scores=scores,
             cost=cost,
             path_cost=path.cost,
-            forward=path.forward,
             thresholds=thresholds,
             seconds=seconds,
             cost_model=model,
