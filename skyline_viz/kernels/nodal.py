@@ -2,25 +2,42 @@
 
 What each term is, `skyline_viz.terms` says. All of them run along rows here, where each of a row's
 pixels is worked out from the same few numbers above it, many at once. But the costs are wanted
-column by column. So `BAND` rows are made, which stay in the cache, and are then turned: the pixels
-of a column that are written together fill a line of the cache.
+column by column. So `BAND` rows are made, which stay in the cache, and are then turned.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
+import cv2
 import numba
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, Bool, Int
 
-BAND = 16
-"""Rows that are turned together: as many float32 as there are in a line of the cache."""
+BAND = 64
+"""Rows that are turned together: of each column they fill four lines of the cache."""
+
+
+class Own(NamedTuple):
+    """What edge pixels pay for themselves."""
+
+    rows: Int
+    """``(n,)`` of the edge pixels, in ascending order."""
+
+    columns: Int
+    """``(n,)`` likewise."""
+
+    costs: F32
+    """``(n,)`` what they pay."""
+
+
+WINDOW = 9
+"""Columns over which the edge pixels above a pixel are averaged."""
 
 
 class Clear(NamedTuple):
-    """What pixels pay for the edge pixels above them."""
+    """What pixels pay for the edge pixels above them, averaged over `WINDOW` columns."""
 
     weight: np.float32
     """For each of them."""
@@ -30,9 +47,6 @@ class Clear(NamedTuple):
 
     rows: int
     """Edge pixels so near above do not count."""
-
-    columns: int
-    """An odd number of columns over which their number is averaged."""
 
 
 class Improbable(NamedTuple):
@@ -54,137 +68,160 @@ class Improbable(NamedTuple):
     """What a pixel pays at the most, above the least of its column."""
 
 
-NOTHING = np.zeros((0, 0), np.float32)
+NOTHING = np.zeros((1, 0), np.float32)
 """The borders of a map that is not asked."""
 
 
 def nodal_costs(
-    edges: Bool, at_edges: F32, elsewhere: float, clear: Clear | None, sky: Improbable | None
+    edges: Bool,
+    own: Own | None,
+    elsewhere: float,
+    clear: Clear | None = None,
+    sky: Improbable | None = None,
 ) -> F32:
     """Nodal costs ``(W, H)`` float32, column by column.
 
     Args:
         edges: ``(H, W)`` edge map.
-        at_edges: ``(n,)`` what edge pixels pay as such, row by row.
+        own: What edge pixels pay as such; None if that is what the others pay.
         elsewhere: What the others pay.
         clear: What they pay for the edges above; None for nothing.
         sky: What they pay for what is improbable; None for nothing.
 
     Examples:
         >>> edges = np.array([[False, True], [False, False]])
-        >>> nodal_costs(edges, np.float32([0.5]), 2.0, None, None)
+        >>> own = Own(np.int32([0]), np.int32([1]), np.float32([0.5]))
+        >>> nodal_costs(edges, own, 2.0)
         array([[2. , 2. ],
                [0.5, 2. ]], dtype=float32)
     """
     height, width = edges.shape
     costs = np.empty((width, height), np.float32)
-    values = np.append(at_edges, np.float32(0)).astype(np.float32)
-    clear = clear or Clear(np.float32(0), np.float32(0), 0, 1)
-    lines, least = NOTHING, np.zeros(0, np.float32)
+    own = own or Own(np.zeros(0, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32))
+    first = np.searchsorted(own.rows, np.arange(height + 1))
+    clear = clear or Clear(np.float32(0), np.float32(0), 0)
+    lines, least, cap = NOTHING, NOTHING[0], np.float32(0)
     if sky is not None:
-        here, there = sky.borders[sky.left], sky.borders[sky.right]
-        lines = np.ascontiguousarray((here + sky.sideways[:, None] * (there - here)).T)
-        least = _least(lines, height)
-    cap = np.float32(0) if sky is None else sky.cap
-    bytes_ = np.ascontiguousarray(edges).view(np.uint8)
-    _fill(bytes_, values, np.float32(elsewhere), clear, lines, least, cap, costs)
+        lines, least = (
+            np.empty((sky.borders.shape[1], width), np.float32),
+            np.empty(width, np.float32),
+        )
+        _lines(np.ascontiguousarray(sky.borders.T), sky.left, sky.right, sky.sideways, lines)
+        _least(lines, height, least)
+        cap = sky.cap
+    flags = np.ascontiguousarray(edges).view(np.uint8)
+    pays = own.columns, own.costs, np.float32(elsewhere), first
+    above = np.zeros(width, np.int32)
+    band = np.empty((BAND, width), np.float32)
+    for top in range(0, height, BAND):
+        part = band[: height - top]
+        _fill(flags, *pays, clear, above, lines, least, cap, top, part)
+        cv2.transpose(part, costs[:, top : top + BAND])
     return costs
 
 
-def _least(lines: F32, height: int) -> F32:
-    """The least that any pixel of a column pays, ``(W,)``.
+@numba.njit(cache=True, nogil=True)
+def _lines(borders: F32, left: Int, right: Int, sideways: F32, lines: F32) -> None:
+    """Interpolate what is paid at the borders of regions ``(h + 1, w)`` between their columns."""
+    for border in range(len(borders)):
+        for column in range(lines.shape[1]):
+            here = borders[border, left[column]]
+            there = borders[border, right[column]]
+            lines[border, column] = here + sideways[column] * (there - here)
 
-    Between two borders it changes one way only: it is enough to look at the first and the last row
-    of each region.
+
+@numba.njit(cache=True, nogil=True)
+def _least(lines: F32, height: int, least: F32) -> None:
+    """Find the least that any pixel of a column would pay.
+
+    Between two borders it changes one way only, rounded or not: it is enough to look at the first
+    and the last row of each region.
     """
+    least[:] = np.inf
     count = len(lines) - 1
-    row = np.arange(height)
-    region = (row * count / height).astype(np.int32)
-    ends = np.flatnonzero(np.diff(region, prepend=-1, append=count))
-    rows = np.unique(np.concatenate([ends[:-1], ends[1:] - 1]))
-    regions, inside = _places(rows, count, height)
-    upper = lines[regions]
-    pays = upper + inside[:, None] * (lines[regions + 1] - upper)
-    return pays.min(axis=0)
-
-
-def _places(rows: Int, count: int, height: int) -> tuple[Int, F32]:
-    """Region of rows of a photo, and how far down in it they are; a line lies on a row's top."""
-    places = rows * count / height
-    regions = places.astype(np.int32)
-    return regions, (places - regions).astype(np.float32)
+    for row in range(height):
+        down = row * count / height
+        region = int(down)
+        if row > 0 and row < height - 1:
+            before, after = (row - 1) * count / height, (row + 1) * count / height
+            if int(before) == region and int(after) == region:
+                continue
+        within = np.float32(down - region)
+        upper, lower = lines[region], lines[region + 1]
+        for column in range(len(least)):
+            pays = upper[column] + within * (lower[column] - upper[column])
+            least[column] = min(least[column], pays)
 
 
 @numba.njit(cache=True, nogil=True)
 def _fill(
     edges: U8,
+    columns: Int,
     values: F32,
     elsewhere: float,
+    first: Int,
     clear: Clear,
+    above: Int,
     lines: F32,
     least: F32,
     cap: float,
-    costs: F32,
+    top: int,
+    band: F32,
 ) -> None:
-    """Fill the costs band by band; see `nodal_costs`.
+    """Fill a band of rows; see `nodal_costs`.
 
     Args:
         edges: ``(H, W)``.
-        values: ``(n + 1,)`` what edge pixels pay, and one more.
+        columns: ``(n,)`` columns of the edge pixels.
+        values: ``(n,)`` what they pay.
         elsewhere: What the others pay.
+        first: ``(H + 1,)`` place of each row's first edge pixel.
         clear: See `Clear`.
+        above: ``(W,)`` edge pixels above the row before, in the window of each column; brought on.
         lines: ``(h + 1, W)`` improbable shares at the borders of regions; of no size for none.
         least: ``(W,)`` the least of each column.
         cap: See `Improbable`.
-        costs: ``(W, H)`` is filled.
+        top: First row of the band.
+        band: ``(rows, W)`` is filled.
     """
     height, width = edges.shape
-    half = clear.columns // 2
+    half = WINDOW // 2
     steps = np.empty(width, np.float32)  # what one edge in the window adds
     for column in range(width):
         inside = min(column + half, width - 1) - max(column - half, 0) + 1
         steps[column] = clear.weight / np.float32(inside)
     padded = np.zeros(width + 2 * half, np.uint8)
-    above = np.zeros(width, np.int32)
+    threes = np.empty(width + 2 * half - 2, np.uint8)
     count = len(lines) - 1
-    band = np.empty((BAND, width), np.float32)
-    place = 0
-    for top in range(0, height, BAND):
-        rows = min(BAND, height - top)
-        for at in range(rows):
-            row = top + at
-            line = band[at]
-            place = _put_edges(edges[row], values, place, elsewhere, line)
-            if clear.weight > 0 and row > clear.rows:
-                padded[half : half + width] = edges[row - clear.rows - 1]
-                _count(padded, clear.columns, above)
-                _add_clear(above, steps, clear.cap, line)
-            if count > 0:
-                down = row * count / height
-                region = int(down)
-                inside_region = np.float32(down - region)
-                _add_sky(lines[region], lines[region + 1], inside_region, least, cap, line)
-        _turn(band, rows, costs, top)
+    for at in range(len(band)):
+        row = top + at
+        line = band[at]
+        line[:] = elsewhere
+        for place in range(np.uintp(first[row]), np.uintp(first[row + 1])):
+            line[columns[place]] = values[place]
+        if clear.weight > 0 and row > clear.rows:
+            padded[half : half + width] = edges[row - clear.rows - 1]
+            _count(padded, threes, above)
+            _add_clear(above, steps, clear.cap, line)
+        if count > 0:
+            down = row * count / height
+            region = int(down)
+            within = np.float32(down - region)
+            _add_sky(lines[region], lines[region + 1], within, least, cap, line)
 
 
 @numba.njit(cache=True, nogil=True)
-def _put_edges(edges: U8, values: F32, place: int, elsewhere: float, line: F32) -> int:
-    """Write the costs of a row before all others, and tell how many values have been used.
+def _count(padded: U8, threes: U8, above: Int) -> None:
+    """Add the edge pixels of a row, in a window around each column, to those of the rows above.
 
-    Without a branch, which would be guessed wrongly at every other edge.
+    The window has nine columns: three times three are summed in bytes.
     """
-    for column in range(len(line)):
-        line[column] = values[place] if edges[column] else elsewhere
-        place += edges[column]
-    return place
-
-
-@numba.njit(cache=True, nogil=True)
-def _count(padded: U8, window: int, above: Int) -> None:
-    """Add the edge pixels of a row, in a window around each column, to those of the rows above."""
-    for shift in range(window):
-        for column in range(len(above)):
-            above[column] += padded[column + shift]
+    for column in range(len(threes)):
+        two = np.uint8(padded[column] + padded[column + 1])
+        threes[column] = np.uint8(two + padded[column + 2])
+    for column in range(len(above)):
+        two = np.uint8(threes[column] + threes[column + 3])
+        above[column] += np.int32(np.uint8(two + threes[column + 6]))
 
 
 @numba.njit(cache=True, nogil=True)
@@ -201,16 +238,3 @@ def _add_sky(upper: F32, lower: F32, inside: float, least: F32, cap: float, line
     for column in range(len(line)):
         pays = upper[column] + inside * (lower[column] - upper[column])
         line[column] += min(pays - least[column], cap)
-
-
-@numba.njit(cache=True, nogil=True)
-def _turn(band: F32, rows: int, costs: F32, top: int) -> None:
-    """Write the rows of a band as parts of columns."""
-    if rows == BAND:
-        for column in range(band.shape[1]):
-            for row in range(BAND):
-                costs[column, top + row] = band[row, column]
-    else:
-        for column in range(band.shape[1]):
-            for row in range(rows):
-                costs[column, top + row] = band[row, column]

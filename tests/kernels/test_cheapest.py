@@ -32,7 +32,7 @@ def plainly(columns, reach, link_weight):
     return rows[::-1], table[-1, end]
 
 
-@examples(120)
+@examples(40)
 @given(
     st.integers(1, 5 * EVERY + 3),
     st.integers(2, 160),
