@@ -96,10 +96,10 @@ class Detection:
     """The filter bank that was used; None of methods without one."""
 
     thresholds: tuple[float, float] | None = None
-    """Canny thresholds that were used; None of methods that have them fixed, or none."""
+    """Canny thresholds that were used; None of methods without, or with fixed ones."""
 
     visibility: Visibility | None = None
-    """Where the line can be seen, and whether it is a skyline; None of methods that cannot tell."""
+    """Where the line can be seen, if it is a skyline; None of methods that cannot tell."""
 
     maps: Mapping[str, F32] = field(default_factory=lambda: MappingProxyType({}))
     """Further maps ``(H, W)`` that the method made, by name: its own stages."""
@@ -117,13 +117,8 @@ class Detection:
 
     @cached_property
     def forward(self) -> F64:
-        """``(H, W)`` float64 cost of the cheapest path from the first column to each pixel.
-
-        Made when first asked for: a search, and twice the memory of the costs.
-        """
-        forward = forward_costs(self.cost, self.delta, self.link_weight)
-        read_only(forward)
-        return forward
+        """``(H, W)`` float64 cost of the cheapest path from the first column to each pixel."""
+        return forward_costs(self.cost, self.delta, self.link_weight)
 
     @property
     def confidence(self) -> float | None:

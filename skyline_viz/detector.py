@@ -314,6 +314,7 @@ class Detector:
                 photo=photo,
                 sky=sky,
                 edges=edges,
+                pixels=(rows, columns),
                 strength=tensor.strength,
                 scores=scores,
                 config=config,

@@ -24,7 +24,7 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import F32, F64, Int
+from skyline_viz.arrays import F32, F64, Int, read_only
 from skyline_viz.constraints import Constraints, PathError, apply_constraints, find_conflict
 from skyline_viz.kernels.cheapest import MOST, cheapest
 
@@ -104,7 +104,7 @@ def shortest_path(
 
 
 def forward_costs(cost: npt.NDArray[np.floating], delta: int, link_weight: float) -> F64:
-    """``(H, W)`` cost of the cheapest path from the first column to each pixel.
+    """``(H, W)`` cost of the cheapest path from the first column to each pixel; read-only.
 
     Arguments and errors are those of `shortest_path`, which needs no such table.
 
@@ -116,6 +116,7 @@ def forward_costs(cost: npt.NDArray[np.floating], delta: int, link_weight: float
     columns, reach = _problem(cost, delta, link_weight, None)
     forward = _forward(columns, reach, float(link_weight))
     _require_path(forward, None)
+    read_only(forward)
     return forward.T
 
 

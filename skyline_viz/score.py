@@ -47,13 +47,22 @@ def score_at(grey: U8, rows: Int, columns: Int, bins: Int, filters: F32) -> F32:
     taps[:, :, :size] = filters
     scores = np.empty(len(rows), np.float32)
     picture = padded.astype(np.float32)
-    _apply(picture.ravel(), picture.shape[1], rows, columns, bins, taps.ravel(), size, scores)
+    _apply(
+        picture.ravel(), picture.shape[1], rows, columns, bins, taps.ravel(), (0,) * size, scores
+    )
     return scores
 
 
 @numba.njit(cache=True, nogil=True)
 def _apply(
-    picture: F32, stride: int, rows: Int, columns: Int, bins: Int, taps: F32, size: int, scores: F32
+    picture: F32,
+    stride: int,
+    rows: Int,
+    columns: Int,
+    bins: Int,
+    taps: F32,
+    height: tuple[int, ...],
+    scores: F32,
 ) -> None:
     """Fill in the filter outputs.
 
@@ -67,16 +76,16 @@ def _apply(
         columns: See `rows`.
         bins: See `rows`.
         taps: The filters, flat.
-        size: Their height.
+        height: As many entries as a filter has rows, see `dot_lanes`.
         scores: ``(n,)`` are filled.
     """
-    count = np.uintp(size)
+    size = len(height)
     lanes = np.uintp((size + LANES - 1) // LANES * LANES)
     step = np.uintp(stride)
     for pixel in range(len(rows)):
-        own = np.uintp(bins[pixel]) * count * lanes
+        own = np.uintp(bins[pixel]) * np.uintp(size) * lanes
         place = np.uintp(rows[pixel]) * step + np.uintp(columns[pixel])
         total = np.float32(0)
         for lane in range(np.uintp(0), lanes, np.uintp(LANES)):
-            total += dot_lanes(taps, own + lane, lanes, picture, place + lane, step, count)
+            total += dot_lanes(taps, own + lane, lanes, picture, place + lane, step, height)
         scores[pixel] = min(max(total * np.float32(1 / 255), np.float32(0)), np.float32(1))

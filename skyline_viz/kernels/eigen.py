@@ -27,7 +27,8 @@ def strengths(txx: F32, txy: F32, tyy: F32, strength: F32, coherence: F32) -> No
         large = math.sqrt(half_trace + half_gap)
         small = math.sqrt(max(half_trace - half_gap, zero))
         strength[pixel] = large
-        coherence[pixel] = (large - small) / max(large + small, least)
+        both = np.float32(large + small)
+        coherence[pixel] = (large - small) / max(least, both)
 
 
 @numba.njit(cache=True, nogil=True)

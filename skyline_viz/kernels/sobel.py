@@ -39,14 +39,13 @@ def _sobel(planes: U8, across: I16, down: I16) -> None:
     smooth, change = (np.empty(width + 2, np.int16), np.empty(width + 2, np.int16))
     x, y = (np.empty(width, np.int16), np.empty(width, np.int16))
     for row in range(height):
-        for channel in range(len(planes)):
-            plane = planes[channel]
-            _downwards(plane[row], plane[row + 1], plane[row + 2], smooth, change)
-            if channel == 0:
-                _sideways(smooth, change, across[row], down[row])
-            else:
-                _sideways(smooth, change, x, y)
-                _take_stronger(x, y, across[row], down[row])
+        _downwards(planes[0, row], planes[0, row + 1], planes[0, row + 2], smooth, change)
+        _sideways(smooth, change, across[row], down[row])
+        for other in range(1, len(planes)):
+            above, here, below = planes[other, row], planes[other, row + 1], planes[other, row + 2]
+            _downwards(above, here, below, smooth, change)
+            _sideways(smooth, change, x, y)
+            _take_stronger(x, y, across[row], down[row])
 
 
 @numba.njit(cache=True, nogil=True)
@@ -73,7 +72,8 @@ def _take_stronger(x: I16, y: I16, across: I16, down: I16) -> None:
     """Take the gradients of a further channel where these are stronger than those so far."""
     for column in range(len(x)):
         old_x, old_y, new_x, new_y = across[column], down[column], x[column], y[column]
-        old = np.int16(max(old_x, np.int16(-old_x)) + max(old_y, np.int16(-old_y)))
-        new = np.int16(max(new_x, np.int16(-new_x)) + max(new_y, np.int16(-new_y)))
-        across[column] = new_x if new > old else old_x
-        down[column] = new_y if new > old else old_y
+        old = np.int16(max(old_x, np.int16(-old_x))) + np.int16(max(old_y, np.int16(-old_y)))
+        new = np.int16(max(new_x, np.int16(-new_x))) + np.int16(max(new_y, np.int16(-new_y)))
+        stronger = np.int16(new) > np.int16(old)
+        across[column] = new_x if stronger else old_x
+        down[column] = new_y if stronger else old_y

@@ -13,7 +13,6 @@ from typing import Any
 
 from llvmlite import ir
 from numba import types
-from numba.core import cgutils
 from numba.extending import intrinsic
 
 LANES = 8
@@ -47,33 +46,30 @@ def dot_lanes(
         values: Flat float32 array.
         first_value: Place of the first value.
         stride: Places from a row of values to the next.
-        rows: How many rows there are.
+        rows: A tuple with an entry for each row: its length, not what is in it, is known when this
+            is compiled, and no loop is left of them.
     """
-    del first_tap, tap_stride, first_value, stride, rows
+    del first_tap, tap_stride, first_value, stride
     place = types.uintp
-    signature = types.float32(taps, place, place, values, place, place, place)
+    signature = types.float32(taps, place, place, values, place, place, rows)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:  # noqa: ANN401
-        taps, first_tap, tap_stride, values, first_value, stride, rows = arguments
+        taps, tap, tap_stride, values, value, stride, _ = arguments
         kinds = signature.args
         taps = context.make_array(kinds[0])(context, builder, taps).data
         values = context.make_array(kinds[3])(context, builder, values).data
 
-        def loaded(data: Any, first: Any, step: Any, row: Any) -> Any:  # noqa: ANN401
-            at = builder.add(first, builder.mul(step, row))
+        def loaded(data: Any, at: Any) -> Any:  # noqa: ANN401
             pointer = builder.bitcast(builder.gep(data, [at]), _VECTOR.as_pointer())
             vector = builder.load(pointer)
             vector.align = 4  # rows begin anywhere
             return vector
 
-        total = cgutils.alloca_once_value(builder, ir.Constant(_VECTOR, [0.0] * LANES))
-        with cgutils.for_range(builder, rows) as loop:
-            product = builder.fmul(
-                loaded(taps, first_tap, tap_stride, loop.index),
-                loaded(values, first_value, stride, loop.index),
-            )
-            builder.store(builder.fadd(builder.load(total), product), total)
-        vector = builder.load(total)
+        vector = ir.Constant(_VECTOR, [0.0] * LANES)
+        for _ in range(kinds[6].count):
+            product = builder.fmul(loaded(taps, tap), loaded(values, value))
+            vector = builder.fadd(vector, product)
+            tap, value = builder.add(tap, tap_stride), builder.add(value, stride)
         lanes = LANES
         while lanes > 1:  # add the upper half to the lower one
             lanes //= 2
