@@ -86,7 +86,8 @@ class Bins:
         above = (tensor.strength - self.strength_offset) / self.strength_range
         strength = _level(above, self.strengths)
         turn = tensor.orientation * (self.orientations / 180.0) + 0.5
-        orientation = turn.astype(np.int32) % self.orientations
+        orientation = turn.astype(np.int32)
+        orientation *= orientation < self.orientations  # 180 degrees are 0
         return (coherence * self.strengths + strength) * self.orientations + orientation
 
     def label(self, index: int) -> str:

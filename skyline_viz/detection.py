@@ -21,7 +21,7 @@ from skyline_viz.edges import edge_pixels
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.frames.frame import Frame
 from skyline_viz.frames.visibility import Visibility
-from skyline_viz.path import shortest_path
+from skyline_viz.path import forward_costs, shortest_path
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage import (
     BIN,
@@ -83,9 +83,6 @@ class Detection:
     path_cost: float
     """Nodal and link costs along the path."""
 
-    forward: F64
-    """``(H, W)`` float64 cost of the cheapest path from the first column to each pixel."""
-
     seconds: dict[str, float]
     """Seconds of each stage."""
 
@@ -99,10 +96,10 @@ class Detection:
     """The filter bank that was used; None of methods without one."""
 
     thresholds: tuple[float, float] | None = None
-    """Canny thresholds that were used; None of methods that have them fixed, or none."""
+    """Canny thresholds that were used; None of methods without, or with fixed ones."""
 
     visibility: Visibility | None = None
-    """Where the line can be seen, and whether it is a skyline; None of methods that cannot tell."""
+    """Where the line can be seen, if it is a skyline; None of methods that cannot tell."""
 
     maps: Mapping[str, F32] = field(default_factory=lambda: MappingProxyType({}))
     """Further maps ``(H, W)`` that the method made, by name: its own stages."""
@@ -117,6 +114,11 @@ class Detection:
     def starved(self) -> Bool:
         """``(n,)`` edge pixels whose score was learned from too little."""
         return np.zeros(len(self.scores), np.bool_)
+
+    @cached_property
+    def forward(self) -> F64:
+        """``(H, W)`` float64 cost of the cheapest path from the first column to each pixel."""
+        return forward_costs(self.cost, self.delta, self.link_weight)
 
     @property
     def confidence(self) -> float | None:
@@ -180,7 +182,7 @@ class Detection:
         return [f"Method {self.method}."]
 
     def uncertainty(self) -> Uncertainty:
-        """How sure the path is: margins and detours. Takes one more path search."""
+        """How sure the path is: margins and detours. Takes two more path searches."""
         return uncertainty(self.cost, self.forward, self.delta, self.link_weight)
 
     def margins(self) -> F64:
@@ -363,7 +365,6 @@ def solve_detection(
         scores=scores,
         cost=cost,
         path_cost=path.cost,
-        forward=path.forward,
         seconds=seconds,
         cost_model=CostModel.given(
             cost,

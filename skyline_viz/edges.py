@@ -17,6 +17,9 @@ from skyline_viz.config import DetectorConfig, EdgeSource
 from skyline_viz.frames.boundary import boundary
 from skyline_viz.frames.finding import find_frame
 from skyline_viz.frames.frame import Frame
+from skyline_viz.kernels.canny import canny
+from skyline_viz.kernels.planes import padded_planes
+from skyline_viz.kernels.sobel import sobel
 
 STRONG_PERCENTILE = 95
 """Percentile of a photo's gradients that stands for its strong ones."""
@@ -48,7 +51,7 @@ SHORTEST_GAP = 1 / 64
 """Edges are sought where they are missing in this share of the columns, one after the other."""
 
 Slopes: TypeAlias = tuple[I16, I16]
-"""Sobel gradients along rows and columns, each ``(H, W)``: of a photo turned upside down."""
+"""Sobel gradients along rows and columns, each ``(H, W)``."""
 
 
 def to_grey(photo: U8) -> U8:
@@ -85,7 +88,7 @@ def candidate_edges(
     thresholds = config.low_threshold, config.high_threshold
     if config.fit_thresholds:
         thresholds = fitted_thresholds(*slopes, *thresholds)
-    found = _canny(slopes, thresholds)
+    found = canny(*slopes, *thresholds)
     if sky is not None and config.sky_edges < 1:
         where, doubt = boundary(sky, height, width)
         lower = thresholds[0] * config.sky_edges, thresholds[1] * config.sky_edges
@@ -122,16 +125,12 @@ def find_edges(photo: U8, source: EdgeSource, low: float, high: float) -> Bool:
         >>> np.flatnonzero(edges.all(axis=1))
         array([5])
     """
-    return _canny(slopes_of(photo, source), (low, high))
+    return canny(*slopes_of(photo, source), low, high)
 
 
 def slopes_of(photo: U8, source: EdgeSource) -> Slopes:
     """Sobel gradients of a photo ``(H, W, 3)``, as `find_edges` describes them: see `Slopes`."""
-    padded = cv2.copyMakeBorder(
-        to_grey(photo) if source == "grey" else photo, 1, 1, 1, 1, cv2.BORDER_REPLICATE
-    )
-    slopes: Slopes = _upside_down_sobel(tuple(cv2.split(padded)))
-    return slopes
+    return sobel(padded_planes(to_grey(photo) if source == "grey" else photo, 1))
 
 
 def seek(
@@ -149,7 +148,7 @@ def seek(
         near: ``(W,)`` row of the boundary; at the upper or lower rim or beyond where there is none.
         half: So many rows above and below it edges are near.
     """
-    height, width = edges.shape
+    width = edges.shape[1]
     wanted = _without_edge(edges, near, half)
     for first, last in runs(wanted):
         if last - first + 1 < SHORTEST_GAP * width:
@@ -160,9 +159,8 @@ def seek(
     # a pixel more at each side: Canny compares neighbours
     left, right = max(columns[0] - 1, 0), columns[-1] + 2
     top, end = max(near[columns].min() - half - 1, 0), near[columns].max() + half + 2
-    part = slice(max(height - end, 0), height - top), slice(left, right)
-    across, down = (np.ascontiguousarray(one[part]) for one in slopes)
-    more = _canny((across, down), thresholds)
+    across, down = (np.ascontiguousarray(one[top:end, left:right]) for one in slopes)
+    more = canny(across, down, *thresholds)
     apart = np.abs(np.arange(top, top + len(more))[:, None] - near[left:right])
     edges[top : top + len(more), left:right] |= more & (apart <= half) & wanted[left:right]
 
@@ -187,7 +185,7 @@ def fitted_thresholds(across: I16, down: I16, low: float, high: float) -> tuple[
         >>> fitted_thresholds(flat, flat, 50.0, 220.0)
         (15.0, 66.0)
     """
-    every = (slice(None, None, GRADIENT_STEP), slice(None, None, GRADIENT_STEP))
+    every = (slice(None, None, -GRADIENT_STEP), slice(None, None, GRADIENT_STEP))
     gradients = np.abs(across[every].astype(np.int32)) + np.abs(down[every])
     weak, strong = np.percentile(gradients, (NOISE_PERCENTILE, STRONG_PERCENTILE))
     wanted = max(STRONG_SHARE * strong, NOISE_MULTIPLE * weak) / (high or 1.0)
@@ -219,12 +217,6 @@ def edge_index(edges: Bool) -> Int:
     return index
 
 
-def _canny(slopes: Slopes, thresholds: tuple[float, float]) -> Bool:
-    """Edge map of slopes, the right way up."""
-    upside_down: U8 = cv2.Canny(*slopes, *thresholds)
-    return upside_down[::-1] > 0
-
-
 @numba.njit(cache=True, nogil=True)
 def _without_edge(edges: Bool, near: Int, half: int) -> Bool:
     """Columns ``(W,)`` that have a row to look near, and no edge there."""
@@ -240,46 +232,6 @@ def _without_edge(edges: Bool, near: Int, half: int) -> Bool:
                 without[column] = False
                 break
     return without
-
-
-@numba.njit(cache=True, nogil=True)
-def _upside_down_sobel(channels: tuple[U8, ...]) -> Slopes:
-    """3x3 Sobel gradients of the channel in which they are strongest, as Canny takes them.
-
-    Of the photo turned upside down: where two rows have the same gradient Canny takes the upper
-    one, which on a sharp skyline is sky; this way it takes the first row of terrain.
-
-    Args:
-        channels: One or three, ``(H + 2, W + 2)``.
-
-    Returns:
-        Gradients along the rows and along the columns, ``(H, W)`` int16, last row first.
-    """
-    height, width = channels[0].shape[0] - 2, channels[0].shape[1] - 2
-    across = np.empty((height, width), np.int16)
-    down = np.empty((height, width), np.int16)
-    for row in range(height):
-        for column in range(width):
-            best = np.int32(-1)
-            best_x = np.int32(0)
-            best_y = np.int32(0)
-            for plane in channels:
-                north_west = np.int32(plane[row, column])
-                north_east = np.int32(plane[row, column + 2])
-                south_west = np.int32(plane[row + 2, column])
-                south_east = np.int32(plane[row + 2, column + 2])
-                east = np.int32(plane[row + 1, column + 2]) - np.int32(plane[row + 1, column])
-                south = np.int32(plane[row + 2, column + 1]) - np.int32(plane[row, column + 1])
-                x = north_east - north_west + south_east - south_west + 2 * east
-                y = south_west - north_west + south_east - north_east + 2 * south
-                strength = abs(x) + abs(y)
-                stronger = strength > best
-                best = strength if stronger else best
-                best_x = x if stronger else best_x
-                best_y = y if stronger else best_y
-            across[height - 1 - row, column] = best_x
-            down[height - 1 - row, column] = -best_y
-    return across, down
 
 
 def edge_settings(config: DetectorConfig) -> tuple[object, ...]:

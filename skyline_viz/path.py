@@ -24,8 +24,9 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import F32, F64, Int
+from skyline_viz.arrays import F32, F64, Int, read_only
 from skyline_viz.constraints import Constraints, PathError, apply_constraints, find_conflict
+from skyline_viz.kernels.cheapest import MOST, cheapest
 
 APART = 5
 """Rows within which two paths count as the same one."""
@@ -40,9 +41,6 @@ class Path:
 
     cost: float
     """Its nodal and link costs together."""
-
-    forward: F64
-    """``(H, W)`` cost of the cheapest path from the first column to each pixel."""
 
 
 @dataclass(frozen=True)
@@ -92,12 +90,34 @@ def shortest_path(
         array([3, 3, 3, 3], dtype=int32)
     """
     columns, reach = _problem(cost, delta, link_weight, constraints)
+    everywhere = int(reach[0]) if constraints is None and len(reach) else 0
+    if 1 <= everywhere <= MOST:
+        rows, paid = cheapest(columns, everywhere, float(link_weight))
+        if np.isfinite(paid):
+            return Path(rows=rows, cost=paid)
     forward = _forward(columns, reach, float(link_weight))
     _require_path(forward, constraints)
     rows = np.empty(len(forward), np.int32)
     rows[-1] = cheapest_end(forward[-1])
     trace(forward, reach, float(link_weight), rows, len(rows) - 1, 0)
-    return Path(rows=rows, cost=float(forward[-1, rows[-1]]), forward=forward.T)
+    return Path(rows=rows, cost=float(forward[-1, rows[-1]]))
+
+
+def forward_costs(cost: npt.NDArray[np.floating], delta: int, link_weight: float) -> F64:
+    """``(H, W)`` cost of the cheapest path from the first column to each pixel; read-only.
+
+    Arguments and errors are those of `shortest_path`, which needs no such table.
+
+    Examples:
+        >>> forward_costs(np.array([[1.0, 1.0], [3.0, 3.0]]), delta=1, link_weight=0.5)
+        array([[1. , 2. ],
+               [3. , 4.5]])
+    """
+    columns, reach = _problem(cost, delta, link_weight, None)
+    forward = _forward(columns, reach, float(link_weight))
+    _require_path(forward, None)
+    read_only(forward)
+    return forward.T
 
 
 def path_tables(

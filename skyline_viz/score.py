@@ -13,6 +13,7 @@ import numba
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, Int
+from skyline_viz.kernels.vectors import LANES, dot_lanes
 
 
 def score_at(grey: U8, rows: Int, columns: Int, bins: Int, filters: F32) -> F32:
@@ -40,33 +41,51 @@ def score_at(grey: U8, rows: Int, columns: Int, bins: Int, filters: F32) -> F32:
     """
     size = filters.shape[1]
     reach = size // 2
-    lanes = -(-size // 8) * 8
+    lanes = -(-size // LANES) * LANES
     padded = cv2.copyMakeBorder(grey, reach, reach, reach, lanes - reach, cv2.BORDER_REPLICATE)
     taps = np.zeros((*filters.shape[:2], lanes), np.float32)
     taps[:, :, :size] = filters
-    scores: F32 = _apply(padded.astype(np.float32), rows, columns, bins, taps, (0,) * lanes)
+    scores = np.empty(len(rows), np.float32)
+    picture = padded.astype(np.float32)
+    _apply(
+        picture.ravel(), picture.shape[1], rows, columns, bins, taps.ravel(), (0,) * size, scores
+    )
     return scores
 
 
-@numba.njit(cache=True, nogil=True, fastmath=True)
+@numba.njit(cache=True, nogil=True)
 def _apply(
-    padded: F32, rows: Int, columns: Int, bins: Int, taps: F32, lanes: tuple[int, ...]
-) -> F32:
-    """Filter outputs; rows of taps are filled up with zeros to whole vectors of eight.
+    picture: F32,
+    stride: int,
+    rows: Int,
+    columns: Int,
+    bins: Int,
+    taps: F32,
+    height: tuple[int, ...],
+    scores: F32,
+) -> None:
+    """Fill in the filter outputs.
 
-    The compiler knows the length of the tuple `lanes`, not that of an array, and so unrolls the
-    inner loop.
+    Rows of taps are filled up with zeros to whole vectors. A filter is read from one place on, and
+    a patch row by row: no output but the last is written.
+
+    Args:
+        picture: The padded grey photo, flat.
+        stride: Its width.
+        rows: ``(n,)``, as are `columns` and `bins`.
+        columns: See `rows`.
+        bins: See `rows`.
+        taps: The filters, flat.
+        height: As many entries as a filter has rows, see `dot_lanes`.
+        scores: ``(n,)`` are filled.
     """
-    scores = np.empty(rows.size, np.float32)
-    sums = np.empty(len(lanes), np.float32)
-    for pixel in range(rows.size):
-        top = rows[pixel]
-        left = columns[pixel]
-        own = bins[pixel]
-        sums[:] = 0
-        for down in range(taps.shape[1]):
-            for lane in range(len(lanes)):
-                sums[lane] += taps[own, down, lane] * padded[top + down, left + lane]
-        score = sums.sum() * np.float32(1 / 255)
-        scores[pixel] = min(max(score, np.float32(0)), np.float32(1))
-    return scores
+    size = len(height)
+    lanes = np.uintp((size + LANES - 1) // LANES * LANES)
+    step = np.uintp(stride)
+    for pixel in range(len(rows)):
+        own = np.uintp(bins[pixel]) * np.uintp(size) * lanes
+        place = np.uintp(rows[pixel]) * step + np.uintp(columns[pixel])
+        total = np.float32(0)
+        for lane in range(np.uintp(0), lanes, np.uintp(LANES)):
+            total += dot_lanes(taps, own + lane, lanes, picture, place + lane, step, height)
+        scores[pixel] = min(max(total * np.float32(1 / 255), np.float32(0)), np.float32(1))

@@ -10,14 +10,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal, TypeAlias
 
-import cv2
-import numba
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import F32, F64, U8, Bool, Int
+from skyline_viz.arrays import F32, F64, Bool, Int
 from skyline_viz.edges import edge_index
 from skyline_viz.frames.boundary import between_centres, improbable
+from skyline_viz.kernels.nodal import WINDOW, Clear, Improbable, nodal_costs
 
 Places: TypeAlias = npt.NDArray[np.integer]
 """Rows or columns of pixels ``(k,)``."""
@@ -25,7 +24,7 @@ Places: TypeAlias = npt.NDArray[np.integer]
 CLEAR_SKY_ROWS = 3
 """Edge pixels this near above a pixel, in rows, do not count against it."""
 
-CLEAR_SKY_COLUMNS = 9
+CLEAR_SKY_COLUMNS = WINDOW
 """Columns over which the edge pixels above a pixel are averaged."""
 
 CLEAR_SKY_CAP = 1.0
@@ -162,7 +161,7 @@ class ClearSky(Term):
 
     def add(self, cost: F32) -> None:
         """See `Term.add`."""
-        self._add(cost, self.edges)
+        cost += nodal_costs(self.edges, None, 0.0, self.paid).T
 
     def answer(self, added: Bool, first: int) -> F32:
         """See `Term.answer`."""
@@ -172,15 +171,14 @@ class ClearSky(Term):
         all_of_them = there.copy()
         asked = slice(before, before + count)
         all_of_them[:, asked] |= added
-        costs = np.zeros((2, *there.shape[::-1]), np.float32)
-        self._add(costs[0].T, all_of_them)
-        self._add(costs[1].T, there)
-        change: F32 = (costs[0] - costs[1]).T[:, asked]
+        more, before_it = (nodal_costs(one, None, 0.0, self.paid) for one in (all_of_them, there))
+        change: F32 = (more - before_it).T[:, asked]
         return change
 
-    def _add(self, cost: F32, edges: Bool) -> None:
-        across = cv2.transpose(np.ascontiguousarray(edges).view(np.uint8))
-        _add_clear_sky(cost.T, across, np.float32(self.weight), np.float32(CLEAR_SKY_CAP))
+    @property
+    def paid(self) -> Clear:
+        """The term as `nodal.nodal_costs` takes it."""
+        return Clear(np.float32(self.weight), np.float32(CLEAR_SKY_CAP), CLEAR_SKY_ROWS)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -200,7 +198,14 @@ class Sky(Term):
 
     def add(self, cost: F32) -> None:
         """See `Term.add`: exact inside regions, and interpolated between their columns."""
-        add_sky(cost, self.sky, self.weight, self.cap)
+        cost += nodal_costs(self.edges, None, 0.0, sky=self.paid).T
+
+    @property
+    def paid(self) -> Improbable:
+        """The term as `nodal.nodal_costs` takes it."""
+        borders = self.weight * improbable(self.sky)
+        between = between_centres(self.edges.shape[1], len(borders))
+        return Improbable(borders.astype(np.float32), *between, np.float32(self.cap))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -268,69 +273,3 @@ class Link:
         change = np.diff(rows, prepend=rows[:1])
         paid: F64 = self.weight * np.abs(change).astype(np.float64)
         return paid
-
-
-def add_sky(cost: F32, sky: F32, weight: float, cap: float) -> None:
-    """Add what pixels pay for improbable sky and terrain to nodal costs, in place; see `Sky`.
-
-    Args:
-        cost: ``(H, W)``, columns together in memory as `cost.CostModel.total` gives it.
-        sky: ``(h, w)`` probability of sky of each region.
-        weight: Cost of a whole column that is improbable.
-        cap: What a pixel pays at the most.
-    """
-    borders = weight * improbable(sky)
-    between = between_centres(cost.shape[1], len(borders))
-    _add_sky(cost.T, borders.astype(np.float32), *between, np.float32(cap))
-
-
-@numba.njit(cache=True, nogil=True)
-def _add_sky(cost: F32, borders: F32, left: Int, right: Int, sideways: F32, cap: float) -> None:
-    """`add_sky` with the weighted sums at borders ``(w, h + 1)``, and costs ``(W, H)``.
-
-    A column is done while it is in the fastest cache: the line of its borders, its pixels and their
-    least one, and what they pay.
-    """
-    width, height = cost.shape
-    count = borders.shape[1] - 1
-    region = np.empty(height, np.int32)
-    inside = np.empty(height, np.float32)
-    for row in range(height):
-        place = row * count / height  # a line at a row lies on the row's upper side
-        region[row] = int(place)
-        inside[row] = place - region[row]
-    line = np.empty(count + 1, np.float32)
-    pays = np.empty(height, np.float32)
-    for column in range(width):
-        here = borders[left[column]]
-        there = borders[right[column]]
-        for border in range(count + 1):
-            line[border] = here[border] + sideways[column] * (there[border] - here[border])
-        least = np.float32(np.inf)
-        for row in range(height):
-            above = line[region[row]]
-            pays[row] = above + inside[row] * (line[region[row] + 1] - above)
-            least = min(least, pays[row])
-        for row in range(height):
-            cost[column, row] += min(pays[row] - least, cap)
-
-
-@numba.njit(cache=True, nogil=True)
-def _add_clear_sky(cost: F32, edges: U8, weight: float, cap: float) -> None:
-    """Add the weighted number of edge pixels above, averaged over columns; both ``(W, H)``."""
-    width, height = cost.shape
-    half = CLEAR_SKY_COLUMNS // 2
-    window = np.zeros(height, np.int32)  # edge pixels of the columns around, row by row
-    for column in range(min(half, width)):
-        window += edges[column]
-    for column in range(width):
-        if column + half < width:
-            window += edges[column + half]
-        if column - half - 1 >= 0:
-            window -= edges[column - half - 1]
-        in_window = min(column + half, width - 1) - max(column - half, 0) + 1
-        step = weight / np.float32(in_window)
-        above = 0
-        for row in range(CLEAR_SKY_ROWS + 1, height):
-            above += window[row - CLEAR_SKY_ROWS - 1]
-            cost[column, row] += min(step * above, cap)

@@ -1,7 +1,7 @@
 r"""How sure the cheapest path is: what it would cost to go elsewhere.
 
 The min-marginal of a pixel is the cost of the cheapest whole path through it: its forward cost,
-which the path search leaves behind, plus its backward cost less its own. The backward sweep keeps
+which leads there, plus its backward cost less its own. The backward sweep keeps
 a column at a time, so that no second table is ever held.
 
 The margin of a column is the gap between its best min-marginal, in row $b$, and the best one
@@ -52,17 +52,17 @@ def uncertainty(
 
     Args:
         cost: ``(H, W)`` nodal costs; ``inf`` forbids a pixel.
-        forward: ``(H, W)`` forward costs, `path.Path.forward`.
+        forward: ``(H, W)`` forward costs, `path.forward_costs`.
         delta: Largest change of row between neighbouring columns, in pixels.
         link_weight: Cost of one pixel of row change.
         apart: Rows within which two paths count as the same one.
 
     Examples:
-        >>> from skyline_viz.path import shortest_path
+        >>> from skyline_viz.path import forward_costs
         >>> cost = np.full((5, 4), 2.0)
         >>> cost[1], cost[3] = 1.0, 1.1
-        >>> path = shortest_path(cost, delta=1, link_weight=0.1)
-        >>> uncertainty(cost, path.forward, 1, 0.1, apart=1).margins.round(2)
+        >>> forward = forward_costs(cost, delta=1, link_weight=0.1)
+        >>> uncertainty(cost, forward, 1, 0.1, apart=1).margins.round(2)
         array([0.4, 0.4, 0.4, 0.4])
     """
     height, width = cost.shape

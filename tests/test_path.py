@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
-from skyline_viz.path import margins, path_tables, shortest_path
+from skyline_viz.path import forward_costs, margins, path_tables, shortest_path
 from testing.examples import examples
 
 STEADY = examples(150)
@@ -74,6 +74,8 @@ def check_against(cost, delta, link_weight, constraints=None):
     assert tables.forward[:, -1].min() == path.cost
     assert tables.backward[:, 0].min() == path.cost
     assert np.array_equal(tables.forward[:, -1], through[:, -1])
+    if constraints is None:
+        assert np.array_equal(forward_costs(cost, delta, link_weight), tables.forward)
     assert np.array_equal(tables.backward[:, 0], through[:, 0])
 
 
@@ -280,7 +282,7 @@ def test_straight_spans_against_brute_force(cost, delta, link_weight, data):
 
 
 @pytest.mark.parametrize("bad", [np.nan, -INF])
-@pytest.mark.parametrize("find", [shortest_path, path_tables])
+@pytest.mark.parametrize("find", [shortest_path, path_tables, forward_costs])
 def test_nan_and_minus_infinity_are_refused(find, bad):
     cost = np.ones((4, 5), np.float32)
     cost[2, 3] = bad
@@ -307,7 +309,7 @@ def test_a_bad_link_weight_is_refused(link_weight):
 
 
 @pytest.mark.parametrize("column", [0, 2, 4])
-@pytest.mark.parametrize("find", [shortest_path, path_tables])
+@pytest.mark.parametrize("find", [shortest_path, path_tables, forward_costs])
 def test_a_column_of_infinite_costs_admits_no_path(find, column):
     cost = np.ones((4, 5), np.float32)
     cost[:, column] = INF

@@ -5,12 +5,12 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from skyline_viz.constraints import PathError
-from skyline_viz.path import margins, path_tables, shortest_path
+from skyline_viz.path import forward_costs, margins, path_tables, shortest_path
 from skyline_viz.uncertainty import uncertainty as uncertainty_of
 
 
 def uncertainty(cost, delta, link, apart=5):
-    return uncertainty_of(cost, shortest_path(cost, delta, link).forward, delta, link, apart)
+    return uncertainty_of(cost, forward_costs(cost, delta, link), delta, link, apart)
 
 
 COSTS = hnp.arrays(
