@@ -29,6 +29,7 @@ from skyline_viz.command_line.messages import (
 from skyline_viz.command_line.sizes import limit
 from skyline_viz.running.batch import FULL, BatchError, sentence
 from skyline_viz.system.endings import AskedToEnd, asked_by_signals
+from skyline_viz.system.memory import keep_freed
 from skyline_viz.system.names import printable
 from skyline_viz.system.notes import heard_by, once
 
@@ -54,6 +55,7 @@ def run_program(
         arguments: These words; those of this process unless given.
     """
     os.environ.setdefault("RUST_LOG", _QUIET)
+    keep_freed()
     try:
         with asked_by_signals(), heard_by(once(lambda note: say(note, program))):
             status = _run(program, parse, sys.argv[1:] if arguments is None else list(arguments))

@@ -36,6 +36,7 @@ _FORMATS = ("AVIF", "BMP", "GIF", "JPEG", "JPEG2000", "PNG", "PPM", "TIFF", "WEB
 _FILMS = ("AVIF", "GIF", "WEBP")
 _HEAD = 64  # bytes: enough to tell any kind
 _DIM = 64  # high bytes below it may be those of 14-bit samples, whose low bytes matter
+_STRIP = 1 << 20  # bytes of a picture that are copied at once; Pillow keeps four a pixel
 _PPM = re.compile(rb"P([56])\s+(?:#.*\n\s*)*\d+\s+(?:#.*\n\s*)*\d+\s+(?:#.*\n\s*)*(\d+)\s")
 
 
@@ -137,7 +138,7 @@ def _pixels(photo: Opened, image: Image.Image, notes: list[str]) -> U8:
         both = np.asarray(image.convert("RGBA"))
         pixels, alpha = np.ascontiguousarray(both[:, :, :3]), both[:, :, 3]
     else:
-        pixels = np.array(image.convert("RGB"), dtype=np.uint8)
+        pixels = _rgb(image)
     if photo.deep and (photo.gamma or pixels.max() < _DIM):
         pixels = _to_eight_bits(photo, photo.deep(), notes)
     elif photo.gamma:
@@ -145,6 +146,21 @@ def _pixels(photo: Opened, image: Image.Image, notes: list[str]) -> U8:
     if alpha is not None:
         pixels, transparent = without_transparency(pixels, alpha)
         notes += [transparent] if transparent else []
+    return pixels
+
+
+def _rgb(image: Image.Image) -> U8:
+    """Pixels of a decoded picture, whatever its colours are.
+
+    Pillow converts and hands out whole pictures through three further copies. It is done here a
+    strip at a time, whose copies stay in the processor's cache.
+    """
+    width, height = image.size
+    pixels = np.empty((height, width, 3), np.uint8)
+    step = max(_STRIP // (4 * width), 1)
+    for top in range(0, height, step):
+        strip = image.crop((0, top, width, min(top + step, height)))
+        pixels[top : top + step] = strip if strip.mode == "RGB" else strip.convert("RGB")
     return pixels
 
 
