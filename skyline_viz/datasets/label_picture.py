@@ -24,7 +24,8 @@ from skyline_viz.picture_files.quiet_pillow import QUIET, silence_libtiff
 from skyline_viz.picture_files.tiff_pages import put_first, tiff_page
 from skyline_viz.system.memory import photo_limit
 
-_FORMATS = ("AVIF", "BMP", "GIF", "JPEG", "JPEG2000", "PPM", "WEBP")
+# Pillow asks them in this order, and from the fifth on it imports all that it knows.
+_FORMATS = ("JPEG", "BMP", "GIF", "PPM", "AVIF", "JPEG2000", "WEBP")
 _HEAD = 64  # bytes: enough to tell any kind
 _PNG = b"\x89PNG\r\n\x1a\n"
 

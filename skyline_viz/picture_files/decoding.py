@@ -32,7 +32,8 @@ from skyline_viz.picture_files.quiet_pillow import QUIET, silence_libtiff
 from skyline_viz.picture_files.tiff_pages import deep_samples, put_first, tiff_page
 from skyline_viz.picture_files.transparency import without_transparency
 
-_FORMATS = ("AVIF", "BMP", "GIF", "JPEG", "JPEG2000", "PNG", "PPM", "TIFF", "WEBP")
+# Pillow asks them in this order, and from the sixth on it imports all that it knows.
+_FORMATS = ("JPEG", "PNG", "BMP", "GIF", "PPM", "AVIF", "JPEG2000", "TIFF", "WEBP")
 _FILMS = ("AVIF", "GIF", "WEBP")
 _HEAD = 64  # bytes: enough to tell any kind
 _DIM = 64  # high bytes below it may be those of 14-bit samples, whose low bytes matter
