@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32, U8, Bool, check_photo, column_counts, in_colour, read_only
-from skyline_viz.files import replacing, write_text
+from skyline_viz.files import write_text
 
 Paint = Literal["red", "blue"]
 """Colour of a painted skyline: pure ``(255, 0, 0)`` or pure ``(0, 0, 255)``."""

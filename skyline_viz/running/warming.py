@@ -18,7 +18,9 @@ from numba.core import event
 from skyline_viz.detector import Detector
 from skyline_viz.system.notes import note
 
-COMPILING = "The detector's loops are compiled, which takes some seconds; later runs find them done."
+COMPILING = (
+    "The detector's loops are compiled, which takes some seconds; later runs find them done."
+)
 """What is noted when that is so."""
 
 _LONGEST = 120.0  # seconds to wait for another process that compiles

@@ -1,5 +1,7 @@
 """Memory counted in bytes: which photos stay open, what is said before work, what is refused."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -333,3 +335,13 @@ def test_the_list_and_the_start_of_labelling_say_what_is_too_large(photos, monke
         memory.limit_photos(memory.MAX_MEGAPIXELS)
     assert found == {"large.png": True, "small.png": False}
     assert answers == [410 if one["too_large"] else 200 for one in listed]
+
+
+def test_freed_memory_is_kept_where_there_is_an_allocator_that_gives_it_back(monkeypatch):
+    told = {}
+    library = SimpleNamespace(mallopt=told.__setitem__)
+    monkeypatch.setattr(memory.ctypes, "CDLL", lambda _: library)
+    memory.keep_freed()
+    assert told == memory._KEPT
+    del library.mallopt
+    memory.keep_freed()
