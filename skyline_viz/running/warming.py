@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from filelock import FileLock
 from numba.core import event
 
 from skyline_viz.detector import Detector
@@ -52,6 +51,8 @@ class _Compiling(event.Listener):  # type: ignore[misc]  # numba has no types
         if self.begun:
             return
         self.begun = True
+        from filelock import FileLock  # noqa: PLC0415  # once ever
+
         note(COMPILING)
         folder = event.data["dispatcher"].stats.cache_path
         with contextlib.suppress(OSError, NotImplementedError):  # then each compiles for itself
