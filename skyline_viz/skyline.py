@@ -188,7 +188,7 @@ class Skyline:
         colours = PAINTS.values() if paint is None else [PAINTS[paint]]
         found = [in_colour(painted, colour) for colour in colours]
         hits = max(found, key=lambda pixels: int(pixels.any(axis=0).sum()))
-        visible = hits.any(axis=0)
+        visible = column_counts(hits) > 0
         if not visible.any():
             raise SkylineError("no pixel is painted in pure red or pure blue")
         return cls(rows=fill(hits.argmax(axis=0), visible), visible=visible)

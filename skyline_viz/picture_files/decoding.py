@@ -161,7 +161,9 @@ def _rgb(image: Image.Image) -> U8:
     step = max(_STRIP // (4 * width), 1)
     for top in range(0, height, step):
         strip = image.crop((0, top, width, min(top + step, height)))
-        pixels[top : top + step] = strip if strip.mode == "RGB" else strip.convert("RGB")
+        if strip.mode != "RGB":
+            strip = strip.convert("RGB")
+        pixels[top : top + step] = np.asarray(strip)
     return pixels
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from numba.core import event
 
 from skyline_viz.detector import Detector
+from skyline_viz.system.memory import loading
 from skyline_viz.system.notes import note
 
 COMPILING = (
@@ -32,6 +33,7 @@ def warm_up() -> None:
     photo = np.full((32, 32, 3), 200, np.uint8)
     photo[16:] = 50
     with (
+        loading(),
         _without_blas(),
         contextlib.ExitStack() as until_done,
         event.install_listener("numba:compile", _Compiling(until_done)),
