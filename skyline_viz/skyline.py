@@ -195,8 +195,9 @@ class Skyline:
 
     def write_csv(self, path: str | os.PathLike[str]) -> None:
         """Write ``column,row,visible``, a line a column; `visible` is 1 or 0."""
-        pairs = zip(self.rows.tolist(), self.visible.tolist(), strict=True)
-        lines = [f"{at},{_in_digits(row)},{visible:d}" for at, (row, visible) in enumerate(pairs)]
+        columns = map(str, range(self.width))
+        visible = map("01".__getitem__, self.visible.tolist())
+        lines = map(",".join, zip(columns, _in_digits(self.rows), visible, strict=True))
         write_text(path, "\n".join([",".join(_CSV_HEADER), *lines, ""]))
 
     @classmethod
@@ -249,11 +250,14 @@ class Skyline:
             return cls(rows=rows, visible=np.array(visible, bool))  # type: ignore[arg-type]
 
 
-def _in_digits(row: float) -> str:
-    """The shortest decimals that give back a row, a float32, without an exponent."""
-    if row.is_integer() and abs(row) < 1 << 24:  # as nearly all are, and are written at once
-        return f"{row:.0f}"
-    return np.format_float_positional(np.float32(row), trim="-")
+def _in_digits(rows: F32) -> list[str]:
+    """The shortest decimals that give back each row, without an exponent."""
+    plain = (rows == np.rint(rows)) & (np.abs(rows) < 1 << 24)  # as all are that a path has
+    plain &= (rows != 0) | ~np.signbit(rows)
+    digits = [*map(str, np.where(plain, rows, 0).astype(np.int32).tolist())]
+    for place in np.flatnonzero(~plain).tolist():
+        digits[place] = np.format_float_positional(rows[place], trim="-")
+    return digits
 
 
 @contextmanager
