@@ -13,7 +13,7 @@ import numpy.typing as npt
 from PIL import ImageColor
 
 from skyline_viz.arrays import U8, Bool, in_colour
-from skyline_viz.datasets.label_picture import LabelPicture
+from skyline_viz.datasets.label_picture import LabelPicture, numbered
 from skyline_viz.skyline import SkylineError
 
 _MOST = 64
@@ -179,20 +179,9 @@ def _levels(grey: npt.NDArray[Any], counts: dict[Any, int] | None) -> Classes:
         return Classes((grey >= cut).astype(np.uint8), found, "grey levels", soft=True)
     if len(values) > _MOST:
         raise SkylineError("it is grey, and neither painted nor a mask of few levels")
-    numbers = _numbered(values, grey)
+    numbers = numbered(grey, values)
     single = tuple(Class(f"{value:g}", value, value) for value in values.tolist())
     return Classes(numbers, single, "grey levels")
-
-
-def _numbered(values: npt.NDArray[Any], grey: npt.NDArray[Any]) -> U8:
-    """The place of each pixel's grey level in the sorted list of all, at most `_MOST`."""
-    if grey.dtype != np.uint8:
-        return np.searchsorted(values, grey).astype(np.uint8)
-    import cv2  # noqa: PLC0415  # not needed for help
-
-    places = np.zeros(256, np.uint8)
-    places[values] = np.arange(len(values))
-    return np.asarray(cv2.LUT(grey, places))
 
 
 def _between(low: float, high: float, cut: float) -> Class:

@@ -123,6 +123,21 @@ class _Opened:
     notes: tuple[str, ...] = ()
 
 
+def numbered(grey: npt.NDArray[Any], values: npt.NDArray[Any]) -> U8:
+    """The place of each pixel's grey level in the sorted list of all, at most 256.
+
+    >>> numbered(np.array([[9, 0, 9]], np.uint8), np.array([0, 9]))
+    array([[1, 0, 1]], dtype=uint8)
+    """
+    if grey.dtype != np.uint8:
+        return np.searchsorted(values, grey).astype(np.uint8)
+    import cv2  # noqa: PLC0415  # not needed for help
+
+    places = np.zeros(256, np.uint8)
+    places[values] = np.arange(len(values))
+    return np.asarray(cv2.LUT(grey, places))
+
+
 def label_size(path: str | os.PathLike[str]) -> tuple[int, int]:
     """Height and width of a picture that is a label, also of one with numbers that no photo has.
 
