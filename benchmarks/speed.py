@@ -12,6 +12,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from benchmarks import around
 from benchmarks.table import markdown
 from skyline_viz import Detector, open_dataset, read_photo, train, write_photo
 from skyline_viz.arrays import U8
@@ -39,6 +40,7 @@ def measured(web: Path | None, samples: Path) -> str:
     photos = [item.photo() for item in items]
     parts = [f"## Speed, on {len(photos)} photographs of `{folder.name}`", _ratios(photos)]
     parts.append(_sky(photos))
+    parts.append(around.measured(folder))
     large = find_photos(web.parent / "new_dataset") if web and web.is_dir() else []
     parts.append(_growth(photos, [read_photo(path) for path in large]))
     with tempfile.TemporaryDirectory() as scratch:
@@ -131,6 +133,7 @@ def _growth(photos: list[U8], large: list[U8]) -> str:
 
 
 def _whole_process(photo: Path, out: Path) -> str:
+    """Wall time; processor time stands in `benchmarks.around`."""
     detect = ["detect", str(photo), "--out", str(out)]
     _run(detect)  # compiles, where this is the first run
     seconds = [

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
+from functools import cache
 from typing import Any, Literal, Self, TypeAlias, get_type_hints
 
 from skyline_viz.bins import Bins
@@ -167,7 +168,7 @@ class DetectorConfig:
             >>> DetectorConfig(delta=10, v=0.9).name
             'default:v=0.9,delta=10'
         """
-        presets = {name: asdict(preset) for name, preset in DetectorConfig.presets().items()}
+        presets = _settings_of_presets()
         if type(self) is not DetectorConfig and asdict(self).keys() == presets["default"].keys():
             presets = {type(self).__name__: presets["default"]}
         return nearest_name(asdict(self), presets)
@@ -203,6 +204,12 @@ class DetectorConfig:
         """
         changes: dict[str, Any] = dict(values)
         return replace(self, **changes)
+
+
+@cache
+def _settings_of_presets() -> dict[str, dict[str, Any]]:
+    """Settings of the presets by name, to be read only: every detection is called after one."""
+    return {name: asdict(preset) for name, preset in DetectorConfig.presets().items()}
 
 
 def refuse_gone(names: Iterable[str]) -> None:

@@ -12,13 +12,15 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import F32, U8, Bool, check_photo, read_only
-from skyline_viz.files import replacing, write_text
+from skyline_viz.arrays import F32, U8, Bool, check_photo, column_counts, in_colour, read_only
+from skyline_viz.files import write_text
 
 Paint = Literal["red", "blue"]
 """Colour of a painted skyline: pure ``(255, 0, 0)`` or pure ``(0, 0, 255)``."""
 
-_PAINTS: dict[Paint, tuple[int, int, int]] = {"red": (255, 0, 0), "blue": (0, 0, 255)}
+PAINTS: dict[Paint, tuple[int, int, int]] = {"red": (255, 0, 0), "blue": (0, 0, 255)}
+"""Red, green and blue of each paint."""
+
 _CSV_HEADER = ["column", "row", "visible"]
 
 
@@ -126,7 +128,10 @@ class Skyline:
         mask = np.asarray(sky_mask)
         if mask.ndim != 2 or mask.dtype != np.bool_ or mask.size == 0:
             raise SkylineError(f"a sky mask is a bool array (H, W), not {mask.dtype} {mask.shape}")
-        rows = np.where(mask.all(axis=0), mask.shape[0], np.argmin(mask, axis=0))
+        if (mask[1:] > mask[:-1]).any():  # sky below terrain: the first terrain must be looked for
+            rows = np.where(mask.all(axis=0), mask.shape[0], np.argmin(mask, axis=0))
+        else:
+            rows = column_counts(mask)
         return cls(rows=rows.astype(np.float32))
 
     def to_painted(self, photo: U8, paint: Paint = "red") -> U8:
@@ -149,7 +154,7 @@ class Skyline:
             True
         """
         check_photo(photo)
-        if paint not in _PAINTS:
+        if paint not in PAINTS:
             raise SkylineError(f"a skyline is painted in red or blue, not in {paint}")
         height, width = photo.shape[:2]
         if width != self.width:
@@ -160,9 +165,9 @@ class Skyline:
         if len(below):
             raise SkylineError(f"column {below[0]} is all sky, so there is no pixel to paint")
         painted = photo.copy()
-        for colour in np.array(list(_PAINTS.values()), np.uint8):
-            painted[(photo == colour).all(axis=2)] = np.maximum(colour, 1) - 1
-        painted[rows[columns], columns] = _PAINTS[paint]
+        for colour in PAINTS.values():
+            painted[in_colour(photo, colour)] = [max(level, 1) - 1 for level in colour]
+        painted[rows[columns], columns] = PAINTS[paint]
         return painted
 
     @classmethod
@@ -180,24 +185,20 @@ class Skyline:
             SkylineError: No pixel has the colour.
         """
         check_photo(painted)
-        colours = _PAINTS.values() if paint is None else [_PAINTS[paint]]
-        found = [(painted == np.array(colour, np.uint8)).all(axis=2) for colour in colours]
+        colours = PAINTS.values() if paint is None else [PAINTS[paint]]
+        found = [in_colour(painted, colour) for colour in colours]
         hits = max(found, key=lambda pixels: int(pixels.any(axis=0).sum()))
-        visible = hits.any(axis=0)
+        visible = column_counts(hits) > 0
         if not visible.any():
             raise SkylineError("no pixel is painted in pure red or pure blue")
         return cls(rows=fill(hits.argmax(axis=0), visible), visible=visible)
 
     def write_csv(self, path: str | os.PathLike[str]) -> None:
         """Write ``column,row,visible``, a line a column; `visible` is 1 or 0."""
-        with (
-            replacing(path) as temporary,
-            temporary.open("w", newline="", encoding="utf-8") as file,
-        ):
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(_CSV_HEADER)
-            for column, (row, visible) in enumerate(zip(self.rows, self.visible, strict=True)):
-                writer.writerow([column, np.format_float_positional(row, trim="-"), int(visible)])
+        columns = map(str, range(self.width))
+        visible = map("01".__getitem__, self.visible.tolist())
+        lines = map(",".join, zip(columns, _in_digits(self.rows), visible, strict=True))
+        write_text(path, "\n".join([",".join(_CSV_HEADER), *lines, ""]))
 
     @classmethod
     def read_csv(cls, path: str | os.PathLike[str]) -> "Skyline":
@@ -223,8 +224,8 @@ class Skyline:
         document = {
             "format": "skyline",
             "version": 1,
-            "rows": [float(row) for row in self.rows],
-            "visible": [bool(visible) for visible in self.visible],
+            "rows": self.rows.tolist(),
+            "visible": self.visible.tolist(),
         }
         write_text(path, json.dumps(document) + "\n")
 
@@ -247,6 +248,16 @@ class Skyline:
             if not isinstance(visible, list) or not all(type(one) is bool for one in visible):
                 raise SkylineError('"visible" is not a list of true and false')
             return cls(rows=rows, visible=np.array(visible, bool))  # type: ignore[arg-type]
+
+
+def _in_digits(rows: F32) -> list[str]:
+    """The shortest decimals that give back each row, without an exponent."""
+    plain = (rows == np.rint(rows)) & (np.abs(rows) < 1 << 24)  # as all are that a path has
+    plain &= (rows != 0) | ~np.signbit(rows)
+    digits = [*map(str, np.where(plain, rows, 0).astype(np.int32).tolist())]
+    for place in np.flatnonzero(~plain).tolist():
+        digits[place] = np.format_float_positional(rows[place], trim="-")
+    return digits
 
 
 @contextmanager

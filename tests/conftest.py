@@ -3,6 +3,7 @@
 import pytest
 
 from skyline_viz.cli import main
+from skyline_viz.running.warming import warm_up
 from testing.programs.commands import write_scenes
 
 
@@ -12,6 +13,12 @@ def state_of_their_own(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
         yield
+
+
+@pytest.fixture(autouse=True, scope="session")
+def compiled():
+    """The loops are there, and no test is the first to say that they are compiled."""
+    warm_up()
 
 
 @pytest.fixture(scope="session")

@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
-from skyline_viz.arrays import check_photo, read_only, runs
+from skyline_viz.arrays import check_photo, column_counts, in_colour, read_only, runs
+
+LOW = st.integers(0, 2)
 
 
 @pytest.mark.parametrize("shape", [(2, 2, 3), (2, 500, 3), (500, 2, 3), (40, 60, 3)])
@@ -67,3 +70,23 @@ def test_runs_hold_every_true_and_lie_apart(mask, gap):
         assert all(b - a <= gap + 1 for a, b in pairwise(inside))
     for (_, last), (first, _) in pairwise(found):
         assert first - last > gap + 1
+
+
+LEVELS = arrays(np.uint8, st.tuples(st.integers(1, 6), st.integers(1, 6), st.just(3)), elements=LOW)
+
+
+@given(LEVELS, st.tuples(LOW, LOW, LOW))
+def test_pixels_of_a_colour_are_those_whose_channels_all_are(photo, colour):
+    assert np.array_equal(in_colour(photo, colour), (photo == np.array(colour)).all(axis=2))
+    turned = photo[::-1, ::-1].swapaxes(0, 1)
+    assert np.array_equal(in_colour(turned, colour), (turned == np.array(colour)).all(axis=2))
+
+
+def test_no_byte_has_a_level_of_16_bits():
+    assert not in_colour(np.full((2, 2, 3), 255, np.uint8), (255, 256, 255)).any()
+
+
+@given(arrays(np.bool_, st.tuples(st.integers(1, 9), st.integers(1, 9))))
+def test_columns_are_counted(mask):
+    assert np.array_equal(column_counts(mask), mask.sum(axis=0))
+    assert np.array_equal(column_counts(mask.T[::-1]), mask.T.sum(axis=0))

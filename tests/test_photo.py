@@ -171,7 +171,7 @@ def test_a_photo_that_does_not_fit_into_memory(tmp_path, monkeypatch):
     def full(*args, **kwargs):
         raise MemoryError
 
-    monkeypatch.setattr(Image.Image, "convert", full)
+    monkeypatch.setattr(Image.Image, "crop", full)
     assert refusal(path) == f"{path} does not fit into memory."
 
 

@@ -5,8 +5,9 @@ import pickle
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from skyline_viz.photo import read_photo, write_photo
 from skyline_viz.skyline import Skyline, SkylineError, fill
@@ -250,6 +251,23 @@ def test_all_sky_cannot_be_painted():
 def test_csv_round_trip(folder, skyline):
     skyline.write_csv(folder / "a.csv")
     assert Skyline.read_csv(folder / "a.csv") == skyline
+
+
+@example(skyline=Skyline([0.0, -0.0, 2.0**24, 2.0**24 - 1, -7, 1e20, 1.5, 3e-42]))
+@given(skyline=skylines())
+def test_csv_holds_the_shortest_digits_without_an_exponent(folder, skyline):
+    skyline.write_csv(folder / "digits.csv")
+    lines = [line.split(",") for line in (folder / "digits.csv").read_text().splitlines()[1:]]
+    told = [np.format_float_positional(row, trim="-") for row in skyline.rows]
+    assert [row for _, row, _ in lines] == told
+    assert [column for column, _, _ in lines] == [str(one) for one in range(skyline.width)]
+    assert [one == "1" for _, _, one in lines] == skyline.visible.tolist()
+
+
+@given(arrays(np.bool_, st.tuples(st.integers(1, 8), st.integers(1, 5))))
+def test_the_skyline_of_a_mask_is_its_first_terrain(mask):
+    rows = [next((row for row, sky in enumerate(one) if not sky), len(mask)) for one in mask.T]
+    assert Skyline.from_mask(mask).rows.tolist() == rows
 
 
 def test_csv_is_what_the_docs_say(tmp_path):

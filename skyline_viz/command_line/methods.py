@@ -15,6 +15,7 @@ import tyro
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.settings import BankFile, Preset
 from skyline_viz.config import DetectorConfig, refuse_gone
+from skyline_viz.system.memory import loading
 from skyline_viz.system.settings import MethodError, spelt
 
 if TYPE_CHECKING:
@@ -74,9 +75,10 @@ class Methods:
                 named of no network.
             MethodError: There is none of that name, its file is damaged, or it was not trained.
         """
-        from skyline_viz.method import LearnedMethod
-        from skyline_viz.methods.registry import find_method, has_learned
-        from skyline_viz.methods.sky_network import SkyNetwork
+        with loading():
+            from skyline_viz.method import LearnedMethod
+            from skyline_viz.methods.registry import find_method, has_learned
+            from skyline_viz.methods.sky_network import SkyNetwork
 
         if self.sky_class and self.network is None:
             raise UsageError("--sky-class is a class of --network, which is not named.")

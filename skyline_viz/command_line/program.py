@@ -29,6 +29,7 @@ from skyline_viz.command_line.messages import (
 from skyline_viz.command_line.sizes import limit
 from skyline_viz.running.batch import FULL, BatchError, sentence
 from skyline_viz.system.endings import AskedToEnd, asked_by_signals
+from skyline_viz.system.memory import end_quickly, keep_freed, loading
 from skyline_viz.system.names import printable
 from skyline_viz.system.notes import heard_by, once
 
@@ -54,6 +55,8 @@ def run_program(
         arguments: These words; those of this process unless given.
     """
     os.environ.setdefault("RUST_LOG", _QUIET)
+    keep_freed()
+    end_quickly()
     try:
         with asked_by_signals(), heard_by(once(lambda note: say(note, program))):
             status = _run(program, parse, sys.argv[1:] if arguments is None else list(arguments))
@@ -118,7 +121,8 @@ def _run(program: str, parse: Callable[[list[str]], Command], arguments: list[st
         tell(f"{program} {__version__}")
         return GOOD
     try:
-        command = parse(arguments)
+        with loading():
+            command = parse(arguments)
     except SystemExit as leaving:  # help, or a command line that makes no sense
         return leaving.code if isinstance(leaving.code, int) else USAGE
     if (megapixels := getattr(command, "max_megapixels", None)) is not None:

@@ -12,8 +12,8 @@ import numpy as np
 import numpy.typing as npt
 from PIL import ImageColor
 
-from skyline_viz.arrays import U8, Bool
-from skyline_viz.datasets.label_picture import LabelPicture
+from skyline_viz.arrays import U8, Bool, in_colour
+from skyline_viz.datasets.label_picture import LabelPicture, numbered
 from skyline_viz.skyline import SkylineError
 
 _MOST = 64
@@ -179,7 +179,7 @@ def _levels(grey: npt.NDArray[Any], counts: dict[Any, int] | None) -> Classes:
         return Classes((grey >= cut).astype(np.uint8), found, "grey levels", soft=True)
     if len(values) > _MOST:
         raise SkylineError("it is grey, and neither painted nor a mask of few levels")
-    numbers = np.searchsorted(values, grey).astype(np.uint8)
+    numbers = numbered(grey, values)
     single = tuple(Class(f"{value:g}", value, value) for value in values.tolist())
     return Classes(numbers, single, "grey levels")
 
@@ -341,7 +341,7 @@ def _is_mixed(
             share = float((np.array(colour) - first) @ along / (along @ along))
             off = np.abs(first + share * along - colour).max()
             if 0 < share < 1 and off <= 4:
-                return not _is_region((picture.values == np.array(colour)).all(axis=2))
+                return not _is_region(in_colour(picture.values, colour))
     return False
 
 

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from skyline_viz.arrays import U8, Bool
+from skyline_viz.arrays import U8, Bool, in_colour
 from skyline_viz.photo import MIN_SIDE, PhotoError, photo_size, reading
 from skyline_viz.picture_files.kinds import kind_of
 from skyline_viz.picture_files.orientation import orientation_in, orientation_of, upright_image
@@ -24,7 +24,8 @@ from skyline_viz.picture_files.quiet_pillow import QUIET, silence_libtiff
 from skyline_viz.picture_files.tiff_pages import put_first, tiff_page
 from skyline_viz.system.memory import photo_limit
 
-_FORMATS = ("AVIF", "BMP", "GIF", "JPEG", "JPEG2000", "PPM", "WEBP")
+# Pillow asks them in this order, and from the fifth on it imports all that it knows.
+_FORMATS = ("JPEG", "BMP", "GIF", "PPM", "AVIF", "JPEG2000", "WEBP")
 _HEAD = 64  # bytes: enough to tell any kind
 _PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -122,6 +123,21 @@ class _Opened:
     notes: tuple[str, ...] = ()
 
 
+def numbered(grey: npt.NDArray[Any], values: npt.NDArray[Any]) -> U8:
+    """The place of each pixel's grey level in the sorted list of all, at most 256.
+
+    >>> numbered(np.array([[9, 0, 9]], np.uint8), np.array([0, 9]))
+    array([[1, 0, 1]], dtype=uint8)
+    """
+    if grey.dtype != np.uint8:
+        return np.searchsorted(values, grey).astype(np.uint8)
+    import cv2  # noqa: PLC0415  # not needed for help
+
+    places = np.zeros(256, np.uint8)
+    places[values] = np.arange(len(values))
+    return np.asarray(cv2.LUT(grey, places))
+
+
 def label_size(path: str | os.PathLike[str]) -> tuple[int, int]:
     """Height and width of a picture that is a label, also of one with numbers that no photo has.
 
@@ -179,7 +195,7 @@ def _of(image: Image.Image, path: Path) -> LabelPicture:
         if not np.isfinite(numbers).all():
             raise PhotoError(f"{path} holds values that are not finite.")
         return LabelPicture(numbers, _counted(numbers), opaque=opaque)
-    colour = image.convert("RGB")
+    colour = image if image.mode == "RGB" else image.convert("RGB")
     found = colour.getcolors(MANY)
     counts_of = None if found is None else {value: count for count, value in found}
     return LabelPicture(np.asarray(colour), counts_of, opaque=opaque)
@@ -239,7 +255,7 @@ def _opaque(image: Image.Image) -> Bool | None:
     if isinstance(clear, int) and (image.mode in ("1", "L") or image.mode.startswith("I")):
         return _told_by((np.asarray(image).astype(np.int64) != clear).astype(np.uint8))
     if image.mode == "RGB" and isinstance(clear, tuple):
-        return _told_by((np.asarray(image) != np.array(clear)).any(axis=2).astype(np.uint8))
+        return _told_by((~in_colour(np.asarray(image), clear)).astype(np.uint8))
     return None
 
 
@@ -263,4 +279,6 @@ def _counted(numbers: npt.NDArray[Any]) -> dict[Any, int] | None:
 
 
 def _colourless(colours: U8) -> bool:
-    return bool((colours.max(axis=-1) - colours.min(axis=-1)).max(initial=0) < 32)
+    red, green, blue = (colours[..., one] for one in range(3))
+    high, low = (peak(peak(red, green), blue) for peak in (np.maximum, np.minimum))
+    return bool((high - low).max(initial=0) < 32)

@@ -10,14 +10,19 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import U8, Bool
+from skyline_viz.arrays import U8, Bool, column_counts, in_colour
 from skyline_viz.datasets.label_picture import LabelPicture
 from skyline_viz.datasets.sky_region import Line, spans_of
-from skyline_viz.skyline import Paint, Skyline, SkylineError
+from skyline_viz.skyline import PAINTS, Paint, Skyline, SkylineError
 
-_PAINTS: dict[Paint, int] = {"red": 0, "blue": 2}
 _FEW = 64
 """So many colours are those of a map, not of a photo, if they make up nearly all of a picture."""
+
+_BARE = 0.9
+"""That share is nearly all."""
+
+_MIX = np.array([40503, 31161, 34283], np.uint16)
+"""Odd numbers that spread colours over 16 bits."""
 
 _APART = 0.1
 """Paint so far from the rest of the line, as a share of the height, is odd."""
@@ -40,20 +45,16 @@ def painted_line(picture: LabelPicture) -> Line | None:
     colours = picture.colours
     lines: dict[Paint, tuple[Skyline, Bool]] = {}
     keys: npt.NDArray[np.int32] | None = None
-    for paint, channel in _PAINTS.items():
-        others = [one for one in range(3) if one != channel]
-        hits = (
-            (colours[:, :, channel] == 255)
-            & (colours[:, :, others[0]] == 0)
-            & (colours[:, :, others[1]] == 0)
-        )
+    for paint, colour in PAINTS.items():
+        hits = in_colour(colours, colour)
         if picture.opaque is not None:
             hits &= picture.opaque
         if not _is_line(hits):
             continue
-        keys = _keys(colours) if keys is None else keys
-        if _is_bare(keys, hits) and not _is_border(keys, hits):
-            continue
+        if _may_be_bare(colours, hits):
+            keys = _keys(colours) if keys is None else keys
+            if _is_bare(keys, hits) and not _is_border(keys, hits):
+                continue
         lines[paint] = Skyline.from_painted(colours, paint), hits
     if not lines:
         return None
@@ -69,7 +70,7 @@ def painted_line(picture: LabelPicture) -> Line | None:
 
 def _is_line(hits: Bool) -> bool:
     """Whether paint is about a pixel a column, and in enough of them."""
-    counts = hits.sum(axis=0)
+    counts = column_counts(hits)
     thick = counts[counts > 0]
     if not len(thick):
         return False
@@ -84,10 +85,25 @@ def _keys(colours: U8) -> npt.NDArray[np.int32]:
     return (high[:, :, 0] << 16) | (high[:, :, 1] << 8) | high[:, :, 2]
 
 
+def _may_be_bare(colours: U8, hits: Bool) -> bool:
+    """Whether `_is_bare` has to count; it takes long, and of a photo this tells that it is none.
+
+    A quarter of the rows is looked at. Colours are put into 4,096 cells, so that few colours have
+    at most the pixels of as many cells; and those that are not looked at may be of these colours.
+    """
+    part = colours[::4]
+    mixed = [part[:, :, one] * _MIX[one] for one in range(3)]
+    cells = (mixed[0] + mixed[1] + mixed[2]) >> 4
+    sums = np.bincount(cells.ravel(), minlength=4096)
+    beneath = hits.size - np.count_nonzero(hits)
+    most = np.sort(sums)[-_FEW:].sum() + hits.size - cells.size
+    return bool(most >= _BARE * beneath)
+
+
 def _is_bare(keys: npt.NDArray[np.int32], hits: Bool) -> bool:
     """Whether there is hardly a photo beneath the paint."""
     sums = np.sort(np.unique(keys[~hits], return_counts=True)[1])
-    return bool(sums[-_FEW:].sum() >= 0.9 * sums.sum())
+    return bool(sums[-_FEW:].sum() >= _BARE * sums.sum())
 
 
 def _is_border(keys: npt.NDArray[np.int32], hits: Bool) -> bool:
@@ -126,7 +142,7 @@ def _notes(skyline: Skyline, hits: Bool) -> tuple[str, ...]:
     """What is odd about the paint: some of it lies far from the rest of the line."""
     height, width = hits.shape
     last = height - 1 - hits[::-1].argmax(axis=0)
-    loose = last - skyline.rows + 1 - hits.sum(axis=0)
+    loose = last - skyline.rows + 1 - column_counts(hits)
     odd = skyline.visible & (loose > max(8, _APART * height))
     shown = np.flatnonzero(skyline.visible)
     reach = max(2, width // 20)
@@ -134,8 +150,11 @@ def _notes(skyline: Skyline, hits: Bool) -> tuple[str, ...]:
         windows = np.lib.stride_tricks.sliding_window_view(
             np.pad(skyline.rows[shown], reach, mode="edge"), 2 * reach + 1
         )
-        far = np.abs(skyline.rows[shown] - np.median(windows, axis=1)) > max(8, _APART * height)
-        odd[shown[far]] = True
+        # far from the median is what half of the window lies far from, on one side
+        apart = windows - skyline.rows[shown][:, None]
+        limit = max(8, _APART * height)
+        far = [beyond.sum(axis=1) > reach for beyond in (apart > limit, apart < -limit)]
+        odd[shown[far[0] | far[1]]] = True
     if not odd.any():
         return ()
     where = spans_of(np.flatnonzero(odd))

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skyline_viz.arrays import Bool, runs
+from skyline_viz.arrays import Bool, column_counts, runs
 from skyline_viz.skyline import Skyline, SkylineError, fill
 
 _FRAME = 0.01
@@ -58,7 +58,7 @@ def shape_of(sky: Bool) -> Shape:
     inner = sky[_frame(sky)]
     first, last = inner[0], inner[-1]
     telling = first & ~last
-    share = inner[:, telling].mean() if telling.any() else 0.5
+    share = column_counts(inner)[telling].mean() / len(inner) if telling.any() else 0.5
     limit = _frame_limit(len(sky)) / len(sky)
     return Shape(int(telling.sum()), int((last & ~first).sum()), not limit < share < 1 - limit)
 
@@ -73,8 +73,7 @@ def line_of(sky: Bool) -> Line:
     inner = sky[frame]
     notes: list[str] = []
     skyline = Skyline.from_mask(inner)
-    line_mask = skyline.to_mask(len(inner))
-    if (line_mask != inner).any():
+    if (column_counts(inner) != skyline.rows).any():  # there is sky below terrain, too
         cleaned, kept = _without_specks(inner)
         clean = Skyline.from_mask(cleaned)
         changed = np.flatnonzero(clean.rows != skyline.rows)
@@ -82,8 +81,8 @@ def line_of(sky: Bool) -> Line:
             notes.append(f"specks above the line were left out in {spans_of(changed)}")
         if len(kept):
             notes.append(f"what floats in the sky in {spans_of(kept)} counts as terrain")
-        skyline, line_mask = clean, clean.to_mask(len(inner))
-        if (line_mask != cleaned).mean() > _MISFIT:
+        skyline = clean
+        if (clean.to_mask(len(inner)) != cleaned).mean() > _MISFIT:
             raise SkylineError("it is neither painted nor a mask with sky above terrain")
     rows, visible = skyline.rows + np.float32(frame.start), skyline.visible
     if thick := max(frame.start, len(sky) - frame.stop):

@@ -20,7 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
-from skyline_viz.arrays import U8, Bool
+from skyline_viz.arrays import U8, Bool, in_colour
 from skyline_viz.datasets.label_classes import Classes, classes_of
 from skyline_viz.datasets.label_picture import LabelPicture, read_label_picture
 from skyline_viz.datasets.painted_line import painted_line
@@ -167,7 +167,7 @@ def _asking(classes: Classes) -> str:
 
 def _from_label_map(pixels: U8) -> Skyline:
     """Skyline of a GeoPose3K label map ``(H, W, 3)``."""
-    rows = Skyline.from_mask((pixels == 0).all(axis=2)).rows
+    rows = Skyline.from_mask(in_colour(pixels, (0, 0, 0))).rows
     visible = (rows > 0) & (rows < len(pixels))
     if not visible.any():
         raise SkylineError("no column holds both sky (black) and terrain")

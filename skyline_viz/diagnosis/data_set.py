@@ -15,6 +15,7 @@ from skyline_viz.evaluation.metrics import column_errors
 from skyline_viz.evaluation.tasks import PhotoTask, run_tasks
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import Codec, Kept
+from skyline_viz.running.warming import warm_up
 
 
 def diagnose_photos(
@@ -61,6 +62,7 @@ def diagnose_photo(tolerance: float | None, task: PhotoTask, *, remedies: bool) 
         SkylineError: It has no truth, or one that does not fit.
     """
     photo, truth = photo_and_truth(task.item)
+    warm_up()
     detection = task.method.detect(photo)
     found = diagnose(detection, truth, tolerance)
     errors = column_errors(detection.skyline, truth)

@@ -32,10 +32,12 @@ from skyline_viz.picture_files.quiet_pillow import QUIET, silence_libtiff
 from skyline_viz.picture_files.tiff_pages import deep_samples, put_first, tiff_page
 from skyline_viz.picture_files.transparency import without_transparency
 
-_FORMATS = ("AVIF", "BMP", "GIF", "JPEG", "JPEG2000", "PNG", "PPM", "TIFF", "WEBP")
+# Pillow asks them in this order, and from the sixth on it imports all that it knows.
+_FORMATS = ("JPEG", "PNG", "BMP", "GIF", "PPM", "AVIF", "JPEG2000", "TIFF", "WEBP")
 _FILMS = ("AVIF", "GIF", "WEBP")
 _HEAD = 64  # bytes: enough to tell any kind
 _DIM = 64  # high bytes below it may be those of 14-bit samples, whose low bytes matter
+_STRIP = 1 << 20  # bytes of a picture that are copied at once; Pillow keeps four a pixel
 _PPM = re.compile(rb"P([56])\s+(?:#.*\n\s*)*\d+\s+(?:#.*\n\s*)*\d+\s+(?:#.*\n\s*)*(\d+)\s")
 
 
@@ -137,7 +139,7 @@ def _pixels(photo: Opened, image: Image.Image, notes: list[str]) -> U8:
         both = np.asarray(image.convert("RGBA"))
         pixels, alpha = np.ascontiguousarray(both[:, :, :3]), both[:, :, 3]
     else:
-        pixels = np.array(image.convert("RGB"), dtype=np.uint8)
+        pixels = _rgb(image)
     if photo.deep and (photo.gamma or pixels.max() < _DIM):
         pixels = _to_eight_bits(photo, photo.deep(), notes)
     elif photo.gamma:
@@ -145,6 +147,23 @@ def _pixels(photo: Opened, image: Image.Image, notes: list[str]) -> U8:
     if alpha is not None:
         pixels, transparent = without_transparency(pixels, alpha)
         notes += [transparent] if transparent else []
+    return pixels
+
+
+def _rgb(image: Image.Image) -> U8:
+    """Pixels of a decoded picture, whatever its colours are.
+
+    Pillow converts and hands out whole pictures through three further copies. It is done here a
+    strip at a time, whose copies stay in the processor's cache.
+    """
+    width, height = image.size
+    pixels = np.empty((height, width, 3), np.uint8)
+    step = max(_STRIP // (4 * width), 1)
+    for top in range(0, height, step):
+        strip = image.crop((0, top, width, min(top + step, height)))
+        if strip.mode != "RGB":
+            strip = strip.convert("RGB")
+        pixels[top : top + step] = np.asarray(strip)
     return pixels
 
 

@@ -17,7 +17,7 @@ from skyline_viz.running.progress import ProgressBar
 from skyline_viz.running.sending import Unsendable, packed, unpacked
 from skyline_viz.system import aftermath
 from skyline_viz.system.endings import held_back
-from skyline_viz.system.memory import limit_photos, photo_limit
+from skyline_viz.system.memory import keep_freed, limit_photos, photo_limit
 from skyline_viz.system.notes import heard_by, note
 
 _HANDFUL = 24
@@ -214,6 +214,7 @@ def _prepare_worker(stop: Event, news: aftermath.News, megapixels: float) -> Non
 
     cv2.setNumThreads(1)
     _Worker.stop = stop
+    keep_freed()
     limit_photos(megapixels)
 
 

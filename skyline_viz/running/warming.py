@@ -1,15 +1,81 @@
-"""Compiled loops are loaded before the first photo, lest its time include that."""
+"""Compiled loops are loaded before the first photo, lest its time include that.
 
+The first run ever compiles them, which takes some seconds, and says so; they are kept beside the
+code. Of several processes that come to it at once, one compiles and the others wait.
+"""
+
+import contextlib
+import sys
+from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numba.core import event
 
 from skyline_viz.detector import Detector
+from skyline_viz.system.memory import loading
+from skyline_viz.system.notes import note
+
+COMPILING = (
+    "The detector's loops are compiled, which takes some seconds; later runs find them done."
+)
+"""What is noted when that is so."""
+
+_LONGEST = 120.0  # seconds to wait for another process that compiles
+_BLAS = "scipy.linalg.cython_blas"
 
 
 @cache
 def warm_up() -> None:
-    """Load the compiled loops of this process."""
+    """Load the compiled loops of this process, or compile and keep them."""
     photo = np.full((32, 32, 3), 200, np.uint8)
     photo[16:] = 50
-    Detector().detect(photo)
+    with (
+        loading(),
+        _without_blas(),
+        contextlib.ExitStack() as until_done,
+        event.install_listener("numba:compile", _Compiling(until_done)),
+    ):
+        Detector().detect(photo)
+
+
+class _Compiling(event.Listener):  # type: ignore[misc]  # numba has no types
+    """Hears that something is compiled, and not found done."""
+
+    def __init__(self, until_done: contextlib.ExitStack) -> None:
+        self.until_done = until_done
+        self.begun = False
+
+    def on_start(self, event: Any) -> None:  # noqa: ANN401
+        """Say so, and wait until no other process compiles; what it has done is found then."""
+        if self.begun:
+            return
+        self.begun = True
+        from filelock import FileLock  # noqa: PLC0415  # once ever
+
+        note(COMPILING)
+        folder = event.data["dispatcher"].stats.cache_path
+        with contextlib.suppress(OSError, NotImplementedError):  # then each compiles for itself
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            self.until_done.enter_context(FileLock(Path(folder, "compiling.lock"), _LONGEST))
+
+    def on_end(self, event: Any) -> None:  # noqa: ANN401
+        """Nothing is to be done."""
+
+
+@contextlib.contextmanager
+def _without_blas() -> Iterator[None]:
+    """Keep numba from importing scipy.linalg, which takes five times as long as detecting.
+
+    It looks whether there is one when it loads its first loop. Ours hold no matrix products.
+    """
+    if _BLAS in sys.modules:
+        yield
+        return
+    sys.modules[_BLAS] = None  # type: ignore[assignment]  # as Python marks what is not there
+    try:
+        yield
+    finally:
+        del sys.modules[_BLAS]

@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 from PIL import Image
 
 import skyline_viz as sv
+from skyline_viz.datasets import painted_line
+from skyline_viz.datasets.sky_region import spans_of
 from skyline_viz.datasets.truths import read_truth, truth_with_notes
 from skyline_viz.skyline import Skyline, SkylineError
 from testing import label_files as made
@@ -120,3 +123,42 @@ def test_painted_photos_come_back_exactly(tmp_path, paint, colour):
     found = truth_of(tmp_path, sv.Skyline(ROWS, visible).to_painted(under, paint))
     assert np.array_equal(found.visible, visible)
     assert np.array_equal(found.rows[visible], ROWS[visible])
+
+
+COLOURS = arrays(
+    np.uint8,
+    st.tuples(st.integers(8, 40), st.integers(8, 12), st.just(3)),
+    elements=st.integers(0, 5),
+)
+
+
+@given(COLOURS, st.integers(0, 3), st.randoms(use_true_random=False))
+def test_what_may_not_be_bare_is_not(colours, few, random):
+    hits = np.zeros(colours.shape[:2], np.bool_)
+    hits[random.randrange(len(hits))] = True
+    if few:
+        colours = colours // 3 * 3
+    bare = painted_line._is_bare(painted_line._keys(colours), hits)
+    assert painted_line._may_be_bare(colours, hits) or not bare
+
+
+def test_a_photo_is_told_from_a_map_by_the_bound_alone():
+    noise = np.random.default_rng(1).integers(0, 256, (64, 200, 3), np.uint8)
+    hits = np.zeros(noise.shape[:2], np.bool_)
+    hits[30] = True
+    assert not painted_line._may_be_bare(noise, hits)
+    assert painted_line._may_be_bare(noise // 128 * 128, hits)
+
+
+@FEW
+@given(st.lists(st.integers(0, 199), min_size=130, max_size=130))
+def test_paint_is_far_that_is_far_from_the_median_around_it(rows):
+    skyline = Skyline(rows)
+    hits = np.zeros((200, 130), np.bool_)
+    hits[rows, np.arange(130)] = True
+    around = np.lib.stride_tricks.sliding_window_view(np.pad(skyline.rows, 6, mode="edge"), 13)
+    far = np.flatnonzero(np.abs(skyline.rows - np.median(around, axis=1)) > 20)
+    notes = painted_line._notes(skyline, hits)
+    where = f"paint far from the rest of the line, in {spans_of(far)}" if len(far) else ""
+    assert "".join(notes).startswith(where)
+    assert bool(notes) == bool(len(far))

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import Image
 
 import skyline_viz as sv
 from skyline_viz.photo import photo_size, read_photo, read_photo_with_notes
+from skyline_viz.picture_files import decoding
 from testing import photo_files
 from testing.examples import examples
 
@@ -61,3 +63,15 @@ def test_a_damaged_file_ends_in_a_photo_or_a_sentence(tmp_path_factory, name, pl
             read(path)
         except sv.PhotoError as error:
             assert str(path) in str(error)
+
+
+@pytest.mark.parametrize("mode", ["RGB", "L", "CMYK", "YCbCr", "P", "1"])
+@pytest.mark.parametrize("strip", [1, 4 * 30 * 7, 1 << 20])
+def test_a_picture_copied_in_strips_is_the_whole_picture(mode, strip, monkeypatch):
+    monkeypatch.setattr(decoding, "_STRIP", strip)
+    noise = np.random.default_rng(1).integers(0, 256, (20, 30, 3), np.uint8)
+    image = Image.fromarray(noise).convert(mode)
+    pixels = decoding._rgb(image)
+    assert np.array_equal(pixels, np.array(image.convert("RGB")))
+    assert pixels.flags.writeable
+    assert pixels.flags.c_contiguous

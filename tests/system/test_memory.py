@@ -1,5 +1,10 @@
 """Memory counted in bytes: which photos stay open, what is said before work, what is refused."""
 
+import gc
+import subprocess
+import sys
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -333,3 +338,38 @@ def test_the_list_and_the_start_of_labelling_say_what_is_too_large(photos, monke
         memory.limit_photos(memory.MAX_MEGAPIXELS)
     assert found == {"large.png": True, "small.png": False}
     assert answers == [410 if one["too_large"] else 200 for one in listed]
+
+
+def test_freed_memory_is_kept_where_there_is_an_allocator_that_gives_it_back(monkeypatch):
+    told = {}
+    library = SimpleNamespace(mallopt=told.__setitem__)
+    monkeypatch.setattr(memory.ctypes, "CDLL", lambda _: library)
+    memory.keep_freed()
+    assert told == memory._KEPT
+    del library.mallopt
+    memory.keep_freed()
+
+
+@pytest.mark.parametrize("looked", [True, False])
+def test_garbage_is_looked_for_after_loading_as_before(looked):
+    before = gc.isenabled()
+    (gc.enable if looked else gc.disable)()
+    try:
+        with pytest.raises(ValueError, match=r"^lost$"), memory.loading():
+            assert not gc.isenabled()
+            raise ValueError("lost")
+        assert gc.isenabled() == looked
+    finally:
+        (gc.enable if before else gc.disable)()
+
+
+def test_what_is_to_be_done_at_the_end_is_done():
+    program = """
+import atexit
+from skyline_viz.system.memory import end_quickly
+atexit.register(print, "done")
+end_quickly()
+end_quickly()
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
+    assert ended.stdout.split() == [b"done"]
