@@ -36,7 +36,7 @@ from skyline_viz.stage import (
     Quantity,
     Stage,
 )
-from skyline_viz.tensor import tensor_map
+from skyline_viz.tensor import tensor_at, tensor_map
 from skyline_viz.terms import Link
 from skyline_viz.uncertainty import Uncertainty, uncertainty
 
@@ -284,10 +284,15 @@ class FilterDetection(Detection):
         whole = cache(partial(tensor_map, self.photo))  # one for all three
         for one in (STRENGTH, COHERENCE, ORIENTATION):
             dense = partial(lambda name: getattr(whole(), name), one.name)
-            yield Stage(one, getattr(self, one.name), "edges", dense=dense)
+            at = partial(self._tensor_at, one.name)
+            yield Stage(one, getattr(self, one.name), "edges", dense=dense, at=at)
         yield Stage(BIN, self.bins, "edges", legend=bin_legend(self.bank.bins))
         yield Stage(SCORE, self.scores, "edges")
         yield from self._last_stages()
+
+    def _tensor_at(self, name: str, rows: Int, columns: Int) -> F32:
+        found: F32 = getattr(tensor_at(self.photo, rows, columns), name)
+        return found
 
     @cached_property
     def _sky_map(self) -> F32:

@@ -96,7 +96,7 @@ def recording(bench: Bench, photo: PhotoId) -> Response:
         raise HTTPException(403, BLIND)
     with session.lock:
         line = session.wire.skyline
-    data = recorded(bench.detection(photo), line, session.photo.name)
+    data = recorded(bench.detection(session), line, session.photo.name)
     return Response(data, media_type="application/octet-stream")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from functools import cached_property
 
 from annotate.engine.edits import EditError, Edits
 from annotate.engine.live_wire import LiveWire
@@ -16,6 +17,7 @@ from skyline_viz.arrays import U8
 from skyline_viz.constraints import PathError
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.method import Method
+from skyline_viz.methods.registry import method_digest
 
 
 class Session:
@@ -58,6 +60,16 @@ class Session:
             store.propose(label, self._line(), self.detector, margin)
             self.state = store.state(label)
         self._resume()
+
+    @property
+    def content(self) -> str:
+        """What the open pixels are known by, `identity.pixel_digest`."""
+        return self._opened.known
+
+    @cached_property
+    def proposer(self) -> str:
+        """What the detector is known by: SHA-256 of its settings and of what it has learned."""
+        return method_digest(self.detector)
 
     def apply(self, operation: Operation, revision: int, id: str | None = None) -> int:  # noqa: A002
         """Do something, and keep it: when this returns, it is on the disk.
