@@ -279,7 +279,7 @@ class FilterDetection(Detection):
 
     def _stages(self) -> Iterator[Stage]:
         if self.sky is not None:
-            yield Stage(SKY, self._sky_map, "photo")
+            yield Stage(SKY, self._sky_map(self.sky), "photo")
         yield Stage(EDGES, self.edges, "mask")
         whole = cache(partial(tensor_map, self.photo))  # one for all three
         for one in (STRENGTH, COHERENCE, ORIENTATION):
@@ -294,11 +294,12 @@ class FilterDetection(Detection):
         found: F32 = getattr(tensor_at(self.photo, rows, columns), name)
         return found
 
-    @cached_property
-    def _sky_map(self) -> F32:
-        """``(H, W)`` probability of sky of each pixel, interpolated between centres of regions."""
-        assert self.sky is not None
-        whole = np.asarray(cv2.resize(self.sky, self.edges.shape[::-1]), np.float32)
+    def _sky_map(self, sky: F32) -> F32:
+        """``(H, W)`` probability of sky of each pixel, interpolated between centres of regions.
+
+        Made anew each time: it takes a moment, and as much memory as the costs.
+        """
+        whole = np.asarray(cv2.resize(sky, self.edges.shape[::-1]), np.float32)
         read_only(whole)
         return whole
 
