@@ -7,7 +7,9 @@ from the left and from the right, are kept for each run of free columns:
 - the cheapest line through any pixel is two walks through them: a preview needs no search;
 - an anchor leaves the tables on its far sides valid: only the run in which it lies is swept again,
   and only when the next question is asked;
-- their sum tells the min-marginals: margins, and other lines through the same column.
+- the line itself needs the table from the left alone: the other one waits for the next preview;
+- their sum tells the min-marginals: margins, and other lines through the same column. Margins are
+  measured when somebody asks for them, a piece at a time, so that a click need not wait for all.
 
 Two anchors that are steeper than `delta` allows are joined by a straight line: a cliff can be
 labelled, too.
@@ -23,14 +25,17 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
-from annotate.engine.edits import ORIGINS, Edits, paint
-from annotate.engine.plan import Plan, Run, Stale, make_plan
-from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo
+from annotate.engine.edits import ORIGINS, Edits, Stroke, paint
+from annotate.engine.plan import Plan, Run, Stale, make_plan, painted_between
+from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo, runs
 from skyline_viz.constraints import Anchor, PathError, StraightSpan
 from skyline_viz.detection import Detection
 from skyline_viz.method import Method
 from skyline_viz.path import APART, cheapest_end, column_margin, min_marginals, sweep, trace
 from skyline_viz.skyline import Skyline
+
+FORWARD, BACKWARD = True, False
+"""The table of costs from the left, and the one from the right."""
 
 _POOL = ThreadPoolExecutor(2, "sweep")
 
@@ -80,24 +85,24 @@ class LiveWire:
         """What the proposal is from, where it was to be kept."""
         if detector is None:
             cost, self._delta, self._link_weight = np.zeros((self.height, 0), np.float32), 0, 0.0
-            forward = np.zeros((0, self.height))
         else:
             detection = detector.detect(photo)
-            cost, forward = detection.cost, detection.forward.T
+            cost = detection.cost
             self.proposal = detection.skyline
             self.doubt = detection.visibility.doubt if detection.visibility else ""
             self._delta = min(detection.delta, self.height - 1)
             self._link_weight = float(detection.link_weight)
             self.detection = detection if keep else None
-            del detection  # its other planes, before these two are copied
+            del detection  # its other planes, before there are tables
         self._cost: F32 = np.ascontiguousarray(cost.T)
         del cost
-        forward = np.array(forward)
         self._allowed = self._cost  # a copy with infinite costs where the brush forbids
         self._reach = np.full(max(len(self._cost) - 1, 0), self._delta, np.int32)
-        self._forward, self._backward = forward, np.empty_like(forward)
+        self._forward, self._backward = (np.empty(self._cost.shape) for _ in range(2))
         self._margins = np.full(self.width, np.inf)
-        self._tabled: Plan | None = None  # what the tables belong to
+        self._measured = np.zeros(self.width, np.bool_)  # columns whose margins are right
+        self._painted: tuple[Stroke, ...] = ()  # what is forbidden in the costs that may be used
+        self._tabled: dict[bool, Plan | None] = {FORWARD: None, BACKWARD: None}  # their plans
         self._edits = Edits(self.height, self.width)
         self._plan = self._planned(self._edits)
         self._rows: Int | None = None
@@ -157,8 +162,31 @@ class LiveWire:
     @property
     def margin(self) -> F64:
         """``(W,)`` margin of each column; infinite where its row is fixed, or nothing is solved."""
+        while self.measure(self.width):
+            pass
+        return np.where(self._plan.free, self._margins, np.inf)
+
+    def measure(self, most: int) -> int:
+        """Measure the margins of some columns, and return how many are left then.
+
+        Args:
+            most: How many columns at the most: at 24 megapixels 100 of them take 2 ms.
+        """
+        if self.blind:
+            return 0
         self.refresh()
-        return self._margins.copy()
+        waiting = self._plan.free & ~self._measured
+        for first, last in runs(waiting):
+            stop = min(last + 1, first + most)
+            _measure(
+                self._allowed, self._forward, self._backward, first, stop, APART, self._margins
+            )
+            self._measured[first:stop] = True
+            waiting[first:stop] = False
+            most -= stop - first
+            if most <= 0:
+                break
+        return int(np.count_nonzero(waiting))
 
     def anchor(self, column: int, row: int) -> Skyline:
         """Let the line pass through a pixel, and return it.
@@ -226,25 +254,25 @@ class LiveWire:
 
     def refresh(self, plan: Plan | None = None) -> None:
         """Bring the tables up to date: what would else be done when the next question is asked."""
-        plan = plan or self._plan
-        if self.blind or plan == self._tabled:
+        self._sweep_for(plan or self._plan, FORWARD, BACKWARD)
+
+    def _sweep_for(self, plan: Plan, *tables: bool) -> None:
+        """Sweep what is stale of one table or of both."""
+        if self.blind:
             return
-        changed = self._repaint(plan)
-        stale = plan.stale(self._tabled, changed)
+        self._paint(plan)
+        stale: list[Stale] = []
+        for forward in tables:
+            tabled = self._tabled[forward]
+            if plan == tabled:
+                continue
+            changed = painted_between(tabled.strokes if tabled else (), plan.strokes, self.width)
+            stale += [one for one in plan.stale(tabled, changed) if one.forward == forward]
+            self._tabled[forward] = plan
         for job in [_POOL.submit(self._sweep, part) for part in stale]:
             job.result()
-        self._tabled = plan
-        self._margins[~plan.free] = np.inf
         for run in {part.run for part in stale}:
-            _measure(
-                self._allowed,
-                self._forward,
-                self._backward,
-                run.left + 1,
-                run.right,
-                APART,
-                self._margins,
-            )
+            self._measured[run.left + 1 : run.right] = False
 
     def _change(self, how: Callable[[Edits], Edits]) -> Skyline:
         self.edits = how(self._edits)
@@ -293,7 +321,7 @@ class LiveWire:
     def _solved(self, plan: Plan) -> Int:
         """Rows of the cheapest line of a plan."""
         rows = plan.fixed.copy()
-        self.refresh(plan)
+        self._sweep_for(plan, FORWARD)
         for run in plan.runs:
             if run.right_row is None:
                 rows[-1] = cheapest_end(self._forward[-1])
@@ -318,33 +346,27 @@ class LiveWire:
         min_marginals(self._forward[column], self._backward[column], self._allowed[column], through)
         return through
 
-    def _repaint(self, plan: Plan) -> tuple[int, int] | None:
-        """Apply a plan's strokes to the costs; return the first and last column that changed."""
-        before = self._tabled.strokes if self._tabled else ()
-        if plan.strokes == before:
-            return None
-        same = 0
-        for one, other in zip(before, plan.strokes, strict=False):
-            if one is not other and one != other:
-                break
-            same += 1
-        touched = [stroke.columns for stroke in (*before[same:], *plan.strokes[same:])]
-        first = max(min(one for one, _ in touched), 0)
-        last = min(max(one for _, one in touched), self.width - 1)
+    def _paint(self, plan: Plan) -> None:
+        """Forbid in the costs what a plan's strokes forbid, and nothing else."""
+        before, strokes = self._painted, plan.strokes
+        changed = painted_between(before, strokes, self.width)
+        if changed is None:
+            return
+        first, last = changed
         if self._allowed is self._cost:
             self._allowed = self._cost.copy()
         part = slice(first, last + 1)
         mask: Bool = np.zeros((self.width, self.height), np.bool_)
-        if same == len(before):  # strokes were added only: they are painted on what is there
+        if strokes[: len(before)] == before:  # some were added: they are painted on what is there
             mask[part] = self._allowed[part] != self._cost[part]
-            strokes = plan.strokes[same:]
+            strokes = strokes[len(before) :]
         else:
             strokes = tuple(
-                one for one in plan.strokes if one.columns[0] <= last and one.columns[1] >= first
+                one for one in strokes if one.columns[0] <= last and one.columns[1] >= first
             )
         self._allowed[part] = self._cost[part]
         self._allowed[part][paint(strokes, self.height, self.width, mask)[part]] = np.inf
-        return first, last
+        self._painted = plan.strokes
 
     def _sweep(self, part: Stale) -> None:
         """Fill a part of a table."""

@@ -40,9 +40,7 @@ def document(bench: Bench, photo: PhotoId) -> Document:
 @router.get("/margins")
 def margins(bench: Bench, photo: PhotoId) -> Margins:
     """How sure the line is, column by column."""
-    session = bench.session(photo)
-    with session.lock:
-        return Margins.of(session.state.revision, session.wire.margin)
+    return Margins.of(*bench.session(photo).margins())
 
 
 @router.post("/preview")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from functools import cached_property
+from time import sleep
 
 from annotate.engine.edits import EditError, Edits
 from annotate.engine.live_wire import LiveWire
@@ -13,11 +14,14 @@ from annotate.store.lines import Line
 from annotate.store.opened import Opened
 from annotate.store.operations import Logged, Open, Operation, Redo, SetStatus, SetTag, Undo
 from annotate.store.store import Photo, Store
-from skyline_viz.arrays import U8
+from skyline_viz.arrays import F64, U8
 from skyline_viz.constraints import PathError
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.method import Method
 from skyline_viz.methods.registry import method_digest
+
+_PIECE = 256  # columns whose margins are measured at a time
+_YIELD = 0.001  # seconds in which another thread takes the lock
 
 
 class Session:
@@ -122,6 +126,18 @@ class Session:
         """Do now what the next preview would wait for."""
         with self.lock:
             self.wire.refresh()
+
+    def margins(self) -> tuple[int, F64]:
+        """The revision, and how sure its line is in each column.
+
+        They are measured a piece at a time, and between two pieces whoever wants to change the line
+        comes first.
+        """
+        while True:
+            with self.lock:
+                if not self.wire.measure(_PIECE):
+                    return self.state.revision, self.wire.margin
+            sleep(_YIELD)
 
     def _step(self, operation: Undo | Redo, revision: int, known_by: str | None) -> int:
         with self.lock:
