@@ -18,26 +18,20 @@ labelled, too.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 import numpy.typing as npt
 
-from annotate.engine.edits import ORIGINS, Edits, Stroke, paint
-from annotate.engine.plan import Plan, Run, Stale, make_plan, painted_between
-from skyline_viz.arrays import F32, F64, U8, Bool, Int, check_photo, runs
+from annotate.engine.edits import ORIGINS, Edits
+from annotate.engine.plan import Plan, Run, make_plan
+from annotate.engine.tables import BACKWARD, FORWARD, Tables
+from skyline_viz.arrays import F32, F64, U8, Int, check_photo
 from skyline_viz.constraints import Anchor, PathError, StraightSpan
 from skyline_viz.detection import Detection
 from skyline_viz.method import Method
-from skyline_viz.path import APART, cheapest_end, column_margin, min_marginals, sweep, trace
+from skyline_viz.path import APART, cheapest_end, trace
 from skyline_viz.skyline import Skyline
-
-FORWARD, BACKWARD = True, False
-"""The table of costs from the left, and the one from the right."""
-
-_POOL = ThreadPoolExecutor(2, "sweep")
 
 
 @dataclass(frozen=True)
@@ -84,25 +78,19 @@ class LiveWire:
         self.detection: Detection | None = None
         """What the proposal is from, where it was to be kept."""
         if detector is None:
-            cost, self._delta, self._link_weight = np.zeros((self.height, 0), np.float32), 0, 0.0
+            cost, self._delta, link_weight = np.zeros((self.height, 0), np.float32), 0, 0.0
         else:
             detection = detector.detect(photo)
             cost = detection.cost
             self.proposal = detection.skyline
             self.doubt = detection.visibility.doubt if detection.visibility else ""
             self._delta = min(detection.delta, self.height - 1)
-            self._link_weight = float(detection.link_weight)
+            link_weight = float(detection.link_weight)
             self.detection = detection if keep else None
             del detection  # its other planes, before there are tables
-        self._cost: F32 = np.ascontiguousarray(cost.T)
+        columns: F32 = np.ascontiguousarray(cost.T)
         del cost
-        self._allowed = self._cost  # a copy with infinite costs where the brush forbids
-        self._reach = np.full(max(len(self._cost) - 1, 0), self._delta, np.int32)
-        self._forward, self._backward = (np.empty(self._cost.shape) for _ in range(2))
-        self._margins = np.full(self.width, np.inf)
-        self._measured = np.zeros(self.width, np.bool_)  # columns whose margins are right
-        self._painted: tuple[Stroke, ...] = ()  # what is forbidden in the costs that may be used
-        self._tabled: dict[bool, Plan | None] = {FORWARD: None, BACKWARD: None}  # their plans
+        self._tables = Tables(columns, self._delta, link_weight)
         self._edits = Edits(self.height, self.width)
         self._plan = self._planned(self._edits)
         self._rows: Int | None = None
@@ -162,9 +150,7 @@ class LiveWire:
     @property
     def margin(self) -> F64:
         """``(W,)`` margin of each column; infinite where its row is fixed, or nothing is solved."""
-        while self.measure(self.width):
-            pass
-        return np.where(self._plan.free, self._margins, np.inf)
+        return np.full(self.width, np.inf) if self.blind else self._tables.margins(self._plan)
 
     def measure(self, most: int) -> int:
         """Measure the margins of some columns, and return how many are left then.
@@ -172,21 +158,7 @@ class LiveWire:
         Args:
             most: How many columns at the most: at 24 megapixels 100 of them take 2 ms.
         """
-        if self.blind:
-            return 0
-        self.refresh()
-        waiting = self._plan.free & ~self._measured
-        for first, last in runs(waiting):
-            stop = min(last + 1, first + most)
-            _measure(
-                self._allowed, self._forward, self._backward, first, stop, APART, self._margins
-            )
-            self._measured[first:stop] = True
-            waiting[first:stop] = False
-            most -= stop - first
-            if most <= 0:
-                break
-        return int(np.count_nonzero(waiting))
+        return 0 if self.blind else self._tables.measure(self._plan, most)
 
     def anchor(self, column: int, row: int) -> Skyline:
         """Let the line pass through a pixel, and return it.
@@ -238,7 +210,7 @@ class LiveWire:
         self.refresh(plan)
         if not plan.free[column]:
             return []
-        through = self._min_marginals(column)
+        through = self._tables.min_marginals(column)
         apart = max(APART, self.height // 100)
         found: list[Alternative] = []
         best = through[row]
@@ -254,25 +226,8 @@ class LiveWire:
 
     def refresh(self, plan: Plan | None = None) -> None:
         """Bring the tables up to date: what would else be done when the next question is asked."""
-        self._sweep_for(plan or self._plan, FORWARD, BACKWARD)
-
-    def _sweep_for(self, plan: Plan, *tables: bool) -> None:
-        """Sweep what is stale of one table or of both."""
-        if self.blind:
-            return
-        self._paint(plan)
-        stale: list[Stale] = []
-        for forward in tables:
-            tabled = self._tabled[forward]
-            if plan == tabled:
-                continue
-            changed = painted_between(tabled.strokes if tabled else (), plan.strokes, self.width)
-            stale += [one for one in plan.stale(tabled, changed) if one.forward == forward]
-            self._tabled[forward] = plan
-        for job in [_POOL.submit(self._sweep, part) for part in stale]:
-            job.result()
-        for run in {part.run for part in stale}:
-            self._measured[run.left + 1 : run.right] = False
+        if not self.blind:
+            self._tables.sweep_for(plan or self._plan, FORWARD, BACKWARD)
 
     def _change(self, how: Callable[[Edits], Edits]) -> Skyline:
         self.edits = how(self._edits)
@@ -298,8 +253,8 @@ class LiveWire:
         if run is None:  # a cliff between two anchors
             return self._solved(self._planned(anchored))
         rows[column] = row
-        self._walk(rows, column, run, self._forward, run.left)
-        self._walk(rows, column, run, self._backward, run.right)
+        self._walk(rows, column, run, self._tables.forward, run.left)
+        self._walk(rows, column, run, self._tables.backward, run.right)
         return rows
 
     def _walk(self, rows: Int, column: int, run: Run, table: F64, end: int) -> None:
@@ -316,81 +271,31 @@ class LiveWire:
         near = slice(max(row - self._delta, 0), row + self._delta + 1)
         if not np.isfinite(table[column + step, near]).any():
             raise PathError(f"nothing leads to column {column}, row {row} past what is forbidden.")
-        trace(table, self._reach, self._link_weight, rows, column, end - step)
+        trace(table, self._tables.reach, self._tables.link_weight, rows, column, end - step)
 
     def _solved(self, plan: Plan) -> Int:
         """Rows of the cheapest line of a plan."""
         rows = plan.fixed.copy()
-        self._sweep_for(plan, FORWARD)
+        if plan.runs:  # none of a photo that is labelled blind
+            self._tables.sweep_for(plan, FORWARD)
+        forward, reach, weight = (
+            self._tables.forward,
+            self._tables.reach,
+            self._tables.link_weight,
+        )
         for run in plan.runs:
             if run.right_row is None:
-                rows[-1] = cheapest_end(self._forward[-1])
-                if not np.isfinite(self._forward[-1, rows[-1]]):
+                rows[-1] = cheapest_end(forward[-1])
+                if not np.isfinite(forward[-1, rows[-1]]):
                     raise PathError("no line leads to the right edge past what is forbidden.")
-                trace(
-                    self._forward, self._reach, self._link_weight, rows, run.right - 1, run.left + 1
-                )
+                trace(forward, reach, weight, rows, run.right - 1, run.left + 1)
             else:
                 near = max(run.right_row - self._delta, 0)
-                before = self._forward[run.right - 1, near : run.right_row + self._delta + 1]
+                before = forward[run.right - 1, near : run.right_row + self._delta + 1]
                 if not np.isfinite(before).any():
                     raise PathError(
                         f"no line leads to column {run.right}, row {run.right_row} "
                         "past what is forbidden."
                     )
-                trace(self._forward, self._reach, self._link_weight, rows, run.right, run.left + 1)
+                trace(forward, reach, weight, rows, run.right, run.left + 1)
         return rows
-
-    def _min_marginals(self, column: int) -> F64:
-        through = np.empty(self.height)
-        min_marginals(self._forward[column], self._backward[column], self._allowed[column], through)
-        return through
-
-    def _paint(self, plan: Plan) -> None:
-        """Forbid in the costs what a plan's strokes forbid, and nothing else."""
-        before, strokes = self._painted, plan.strokes
-        changed = painted_between(before, strokes, self.width)
-        if changed is None:
-            return
-        first, last = changed
-        if self._allowed is self._cost:
-            self._allowed = self._cost.copy()
-        part = slice(first, last + 1)
-        mask: Bool = np.zeros((self.width, self.height), np.bool_)
-        if strokes[: len(before)] == before:  # some were added: they are painted on what is there
-            mask[part] = self._allowed[part] != self._cost[part]
-            strokes = strokes[len(before) :]
-        else:
-            strokes = tuple(
-                one for one in strokes if one.columns[0] <= last and one.columns[1] >= first
-            )
-        self._allowed[part] = self._cost[part]
-        self._allowed[part][paint(strokes, self.height, self.width, mask)[part]] = np.inf
-        self._painted = plan.strokes
-
-    def _sweep(self, part: Stale) -> None:
-        """Fill a part of a table."""
-        run = part.run
-        if part.forward:
-            table, step, fixed, row = self._forward, 1, run.left, run.left_row
-        else:
-            table, step, fixed, row = self._backward, -1, run.right, run.right_row
-        start = part.first - step
-        if start == fixed and row is None:
-            table[part.first] = self._allowed[part.first]
-            start = part.first
-        elif start == fixed:
-            table[start] = np.inf
-            table[start, row] = 0.0
-        sweep(self._allowed, self._reach, self._link_weight, table, start, part.last)
-
-
-@numba.njit(cache=True, nogil=True)
-def _measure(
-    columns: F32, forward: F64, backward: F64, first: int, stop: int, apart: int, margins: F64
-) -> None:
-    """Margins of the columns from `first` up to, not including, `stop`."""
-    through = np.empty(columns.shape[1])
-    for column in range(first, stop):
-        min_marginals(forward[column], backward[column], columns[column], through)
-        margins[column] = column_margin(through, apart)

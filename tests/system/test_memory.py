@@ -104,7 +104,7 @@ def test_an_open_photo_takes_what_is_counted(tmp_path):
         session = bench.session(1)
         session.wire.forbid([(20, 20)], 5)
         session.wire.refresh()
-        planes = [session.pixels, *vars(session.wire).values()]
+        planes = [session.pixels, *vars(session.wire._tables).values()]
         arrays = {id(one): one for one in planes if isinstance(one, np.ndarray) and one.ndim > 1}
         taken = sum(one.nbytes for one in arrays.values())
         assert 0.95 * SESSION <= taken / (200 * 300) <= SESSION
