@@ -282,23 +282,17 @@ class FilterDetection(Detection):
             yield Stage(SKY, self._sky_map(self.sky), "photo")
         yield Stage(EDGES, self.edges, "mask")
         whole = cache(partial(tensor_map, self.photo))  # one for all three
+        of_some = partial(tensor_at, self.photo)
         for one in (STRENGTH, COHERENCE, ORIENTATION):
             dense = partial(lambda name: getattr(whole(), name), one.name)
-            at = partial(self._tensor_at, one.name)
+            at = partial(lambda name, *some: getattr(of_some(*some), name), one.name)
             yield Stage(one, getattr(self, one.name), "edges", dense=dense, at=at)
         yield Stage(BIN, self.bins, "edges", legend=bin_legend(self.bank.bins))
         yield Stage(SCORE, self.scores, "edges")
         yield from self._last_stages()
 
-    def _tensor_at(self, name: str, rows: Int, columns: Int) -> F32:
-        found: F32 = getattr(tensor_at(self.photo, rows, columns), name)
-        return found
-
     def _sky_map(self, sky: F32) -> F32:
-        """``(H, W)`` probability of sky of each pixel, interpolated between centres of regions.
-
-        Made anew each time: it takes a moment, and as much memory as the costs.
-        """
+        """``(H, W)`` probability of sky of each pixel, between centres of regions; made anew."""
         whole = np.asarray(cv2.resize(sky, self.edges.shape[::-1]), np.float32)
         read_only(whole)
         return whole
