@@ -11,7 +11,7 @@ from collections.abc import Callable
 from contextlib import ExitStack, suppress
 from pathlib import Path
 from statistics import median
-from time import process_time
+from time import perf_counter, process_time
 
 import numpy as np
 
@@ -32,6 +32,9 @@ COUNTS = (10, 100, 500, 2000)
 CLICKS = 70
 """Clicks at each of them, in turn, so that a busy machine is as busy for all."""
 
+LARGE = 4000, 6000
+"""Height and width of a photo on which clicks are timed in milliseconds."""
+
 _HEIGHT, _WIDTH = 519, 1388
 _PHOTOS, _LOG = 300, 30
 
@@ -51,10 +54,10 @@ def corrected(chance: random.Random, session: Session) -> Operation | str:
 
 def brushed(chance: random.Random, session: Session) -> Operation | str:
     """Brush or eraser, undone and redone, and hidden columns, in turn."""
-    first = chance.randrange(_WIDTH - 60)
+    first = chance.randrange(session.photo.width - 60)
     kind = ("brush", "undo", "redo", "hide", "undo", "undo", "hide")[session.state.count % 7]
     if kind == "brush":
-        return stroke(first, allow=chance.random() < 0.3)
+        return stroke(first, session.photo.height, allow=chance.random() < 0.3)
     if kind == "hide":
         return Hide(first=first, last=first + 20, hidden=chance.random() < 0.5)
     return kind
@@ -66,14 +69,15 @@ def anchored(chance: random.Random, session: Session) -> Operation | str:
     return SetAnchor(column=column, row=int(session.wire.skyline.rows[column]))
 
 
-def painted(chance: random.Random, _: Session) -> Operation | str:
+def painted(chance: random.Random, session: Session) -> Operation | str:
     """Strokes of the brush, none taken back: the document itself grows."""
-    return stroke(chance.randrange(_WIDTH - 60))
+    photo = session.photo
+    return stroke(chance.randrange(photo.width - 60), photo.height)
 
 
-def stroke(first: int, *, allow: bool = False) -> Forbid:
+def stroke(first: int, height: int, *, allow: bool = False) -> Forbid:
     """A stroke far below the line."""
-    points = [(first + 5 * step, 450 + step) for step in range(10)]
+    points = [(first + 5 * step, height - 69 + step) for step in range(10)]
     return Forbid(points=points, radius=6, allow=allow)
 
 
@@ -111,6 +115,30 @@ def ratios(how: Callable[[random.Random, Session], Operation | str]) -> list[flo
     return [one / spent[0] for one in spent]
 
 
+def large() -> list[list[str]]:
+    """Processor time and time of clicks on a large photo with 1,000 operations behind them."""
+    rows = []
+    for how in (corrected, brushed):
+        chance = random.Random(1)
+        with tempfile.TemporaryDirectory() as folder:
+            height, width = LARGE
+            bench = workbench(write_hills(Path(folder), count=1, height=height, width=width))
+            session = bench.session(1)
+            while session.state.count < 1000:
+                click(session, how(chance, session))
+            spent = []
+            for _ in range(CLICKS):
+                act = how(chance, session)
+                start, began = process_time(), perf_counter()
+                click(session, act)
+                spent.append((process_time() - start, perf_counter() - began))
+                session.refresh()
+            bench.close()
+        both = np.percentile(np.array(spent) * 1000, [50, 95], axis=0).T.ravel()
+        rows.append([(how.__doc__ or "").rstrip("."), *(f"{one:.1f}" for one in both)])
+    return rows
+
+
 def listing() -> tuple[float, int]:
     """Cost of a list of long logs in costs of one of empty logs, and the rows of logs it reads."""
     line = Line(Skyline(rows=[5] * 70), np.zeros(70, np.uint8))
@@ -143,11 +171,15 @@ def measured() -> str:
         for how in (corrected, brushed, anchored, painted)
     ]
     table = markdown(["what was done", *(f"at {count:,}" for count in COUNTS)], rows)
+    megapixels = LARGE[0] * LARGE[1] / 1e6
+    header = ["what was done", "ms of a processor", "95th percentile", "ms", "95th percentile"]
     longer, read = listing()
     return (
         "## What a click costs when many came before it\n\n"
         "Processor time of a click and its answer, as a multiple of that with "
         f"{COUNTS[0]} operations in the log.\n\n{table}\n\n"
+        f"At {megapixels:.0f} megapixels with 1,000 operations in the log:\n\n"
+        f"{markdown(header, large())}\n\n"
         f"A list of {_PHOTOS} photos with {_LOG} operations each costs {longer:.2f} times one of "
         f"photos with none, and makes {read} queries for what is in a log.\n"
     )

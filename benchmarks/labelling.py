@@ -2,6 +2,7 @@
 
 import shutil
 import tempfile
+from collections import defaultdict
 from pathlib import Path
 from time import perf_counter, sleep
 
@@ -121,7 +122,7 @@ def _size(path: Path) -> tuple[int, int] | None:
 
 def _used(client, photos: int, size: str) -> dict[str, list[float]]:
     chance = np.random.default_rng(0)
-    seconds: dict[str, list[float]] = {"preview": [], "click to new line": [], "next photo": []}
+    seconds: dict[str, list[float]] = defaultdict(list)
 
     def timed(what, method, path, **body):
         start = perf_counter()
@@ -141,6 +142,15 @@ def _used(client, photos: int, size: str) -> dict[str, list[float]]:
         body = asked(document["revision"], operation=operation)
         where = "/api/photos/1/operations"
         document = timed("click to new line", "POST", where, json=body).json()
+    for stage in client.get("/api/legend").json()["stages"]:
+        where = f"/api/photos/1/stages/{stage}"
+        tag = timed("a stage, first", "GET", where).headers["etag"]
+        start = perf_counter()
+        client.get(where, headers={"If-None-Match": tag})  # as a browser asks that has it
+        seconds["a stage, again"].append(perf_counter() - start)
+    for photo in range(1, photos + 1):
+        timed("thumbnail, first", "GET", f"/api/photos/{photo}/thumbnail")
+        timed("thumbnail, again", "GET", f"/api/photos/{photo}/thumbnail")
     for photo in range(2, photos + 1):
         sleep(1.0 if size == "1388x519" else 6.0)  # the person looks at the photo before it
         start = perf_counter()

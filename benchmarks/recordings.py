@@ -7,6 +7,8 @@ import tempfile
 import time
 from pathlib import Path
 
+import cv2
+
 from benchmarks.table import markdown
 from skyline_viz import Detector, log_detection, new_recording, open_dataset, write_photo
 from skyline_viz.rendering import sample_scenes
@@ -15,6 +17,14 @@ from skyline_viz.viewer.contents import Fidelity
 
 GALLERIES = (250, 1000)
 """Numbers of photos of the galleries whose memory is compared."""
+
+_INSPECT = """
+import sys
+from pathlib import Path
+from skyline_viz.cli import main
+main(["inspect", sys.argv[1], "--save", sys.argv[2]])
+print(Path("/proc/self/status").read_text().split("VmHWM:")[1].split()[0])
+"""
 
 _GALLERY = """
 import resource, sys
@@ -37,6 +47,7 @@ def measured(web: Path | None, samples: Path) -> str:
             [
                 f"## Recordings, of the photographs of `{folder.name}`",
                 _each(folder, Path(scratch)),
+                _large(Path(scratch)),
                 _many(Path(scratch)),
                 _first_picture(samples, Path(scratch)),
             ]
@@ -72,6 +83,20 @@ def _each(folder: Path, scratch: Path) -> str:
         )
     header = ["fidelity", "time / detection", "ms", "MB, median", "MB, largest"]
     return markdown(header, rows)
+
+
+def _large(scratch: Path) -> str:
+    """Bytes and peak memory of a whole process that records a photo of 12 megapixels in full."""
+    scene = next(sample_scenes()).photo
+    write_photo(scratch / "large.jpg", cv2.resize(scene, (4032, 3024)))
+    file = scratch / "large.rrd"
+    words = [sys.executable, "-c", _INSPECT, scratch / "large.jpg", file]
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=True)
+    megabytes, kilobytes = file.stat().st_size / 1e6, int(done.stdout.split()[-1])
+    return (
+        f"`inspect --save` of 12 megapixels: {megabytes:.0f} MB, and {kilobytes / 1024:.0f} MB of "
+        "memory at the most."
+    )
 
 
 def _many(scratch: Path) -> str:

@@ -36,7 +36,7 @@ from skyline_viz.stage import (
     Quantity,
     Stage,
 )
-from skyline_viz.tensor import tensor_map
+from skyline_viz.tensor import tensor_at, tensor_map
 from skyline_viz.terms import Link
 from skyline_viz.uncertainty import Uncertainty, uncertainty
 
@@ -281,21 +281,21 @@ class FilterDetection(Detection):
 
     def _stages(self) -> Iterator[Stage]:
         if self.sky is not None:
-            yield Stage(SKY, self._sky_map, "photo")
+            yield Stage(SKY, self._sky_map(self.sky), "photo")
         yield Stage(EDGES, self.edges, "mask")
         whole = cache(partial(tensor_map, self.photo))  # one for all three
+        of_some = partial(tensor_at, self.photo)
         for one in (STRENGTH, COHERENCE, ORIENTATION):
             dense = partial(lambda name: getattr(whole(), name), one.name)
-            yield Stage(one, getattr(self, one.name), "edges", dense=dense)
+            at = partial(lambda name, *some: getattr(of_some(*some), name), one.name)
+            yield Stage(one, getattr(self, one.name), "edges", dense=dense, at=at)
         yield Stage(BIN, self.bins, "edges", legend=bin_legend(self.bank.bins))
         yield Stage(SCORE, self.scores, "edges")
         yield from self._last_stages()
 
-    @cached_property
-    def _sky_map(self) -> F32:
-        """``(H, W)`` probability of sky of each pixel, interpolated between centres of regions."""
-        assert self.sky is not None
-        whole = np.asarray(cv2.resize(self.sky, self.edges.shape[::-1]), np.float32)
+    def _sky_map(self, sky: F32) -> F32:
+        """``(H, W)`` probability of sky of each pixel, between centres of regions; made anew."""
+        whole = np.asarray(cv2.resize(sky, self.edges.shape[::-1]), np.float32)
         read_only(whole)
         return whole
 

@@ -12,7 +12,7 @@ from typing import Any, Literal, TypeAlias
 
 import numpy.typing as npt
 
-from skyline_viz.arrays import F32
+from skyline_viz.arrays import F32, Int
 
 Where: TypeAlias = Literal["mask", "edges", "photo", "columns"]
 """Where the values of a stage are: a yes or no for every pixel ``(H, W)``, a value at each edge
@@ -91,6 +91,10 @@ class Stage:
     """Gives what all pixels show ``(H, W)``, where that is more than the values: of a stage that is
     kept at edge pixels all others, too; of costs NaN where pixels are ruled out. It may take as
     long as the stage."""
+
+    at: Callable[[Int, Int], F32] | None = None
+    """Gives what pixels at some rows and columns ``(k,)``, in ascending order of rows, show, where
+    that is less work than `dense`."""
 
     legend: tuple[tuple[str, tuple[int, int, int]], ...] = ()
     """Words and colour of each value, where these are whole numbers that name something."""

@@ -120,6 +120,21 @@ class Plan:
         return stale
 
 
+def painted_between(
+    before: tuple[Stroke, ...], after: tuple[Stroke, ...], width: int
+) -> tuple[int, int] | None:
+    """First and last column that some strokes may forbid otherwise than others; None for none."""
+    same = 0
+    for one, other in zip(before, after, strict=False):
+        if one is not other and one != other:
+            break
+        same += 1
+    touched = [stroke.columns for stroke in (*before[same:], *after[same:])]
+    if not touched:
+        return None
+    return max(min(one for one, _ in touched), 0), min(max(one for _, one in touched), width - 1)
+
+
 def make_plan(edits: Edits, delta: int | None) -> Plan:
     """Fix what the annotator has fixed.
 

@@ -23,6 +23,7 @@ from annotate.store.lines import LineError
 from annotate.store.opened import BusyError
 from annotate.store.store import StaleError
 from annotate.work.learning import Learner
+from annotate.work.shown import NoPictureError, Pictures
 from annotate.work.workbench import UnknownPhotoError, Workbench
 from skyline_viz.constraints import PathError
 from skyline_viz.method import MethodError
@@ -38,6 +39,7 @@ _STATUSES: dict[type[Exception], int] = {
     PathError: 422,
     EditError: 422,
     UnknownPhotoError: 404,
+    NoPictureError: 404,
     PhotoError: 410,
     BusyError: 503,
     MethodError: 422,
@@ -71,6 +73,7 @@ def make_app(bench: Workbench, token: str, hosts: frozenset[str]) -> Guard:
         openapi_url="/api/openapi.json",
     )
     app.state.bench, app.state.learner = bench, Learner(bench)
+    app.state.pictures = Pictures(bench)
     for kind, status in _STATUSES.items():
         app.add_exception_handler(kind, _sentence(status))
     app.add_exception_handler(RequestValidationError, _invalid)

@@ -7,6 +7,7 @@ from typing import Annotated, TypeAlias
 from fastapi import Depends, Path, Request
 
 from annotate.work.learning import Learner
+from annotate.work.shown import Pictures
 from annotate.work.workbench import Workbench
 
 
@@ -20,11 +21,19 @@ def _learner(request: Request) -> Learner:
     return learner
 
 
+def _pictures(request: Request) -> Pictures:
+    pictures: Pictures = request.app.state.pictures
+    return pictures
+
+
 Bench: TypeAlias = Annotated[Workbench, Depends(_bench)]
 """The workbench of the server."""
 
 TheLearner: TypeAlias = Annotated[Learner, Depends(_learner)]
 """What learns from the labels."""
+
+ThePictures: TypeAlias = Annotated[Pictures, Depends(_pictures)]
+"""The pictures of its photos."""
 
 PhotoId: TypeAlias = Annotated[int, Path(ge=1, le=2**62)]
 """A photo, never by its path."""

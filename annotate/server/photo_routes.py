@@ -40,9 +40,7 @@ def document(bench: Bench, photo: PhotoId) -> Document:
 @router.get("/margins")
 def margins(bench: Bench, photo: PhotoId) -> Margins:
     """How sure the line is, column by column."""
-    session = bench.session(photo)
-    with session.lock:
-        return Margins.of(session.state.revision, session.wire.margin)
+    return Margins.of(*bench.session(photo).margins())
 
 
 @router.post("/preview")
@@ -96,7 +94,7 @@ def recording(bench: Bench, photo: PhotoId) -> Response:
         raise HTTPException(403, BLIND)
     with session.lock:
         line = session.wire.skyline
-    data = recorded(bench.detection(photo), line, session.photo.name)
+    data = recorded(bench.detection(session), line, session.photo.name)
     return Response(data, media_type="application/octet-stream")
 
 

@@ -5,6 +5,7 @@
 - Requests that change something come from this origin, and carry JSON of a limited size.
 - Every answer says whose labels of which folder it is about, and a request that is meant for others
   is refused: a page that stays open may meet another server at its address.
+- Nothing is kept by a browser but pictures of photos, for itself alone, and not used unasked.
 - What the server sends loads nothing from elsewhere, is never framed, and keeps its type.
 """
 
@@ -66,8 +67,11 @@ class Guard:
         async def sealed(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
+                kept = headers.get("Cache-Control")  # of pictures, which the browser may keep
                 for name, value in HEADERS.items():
                     headers[name] = value
+                if kept:
+                    headers["Cache-Control"] = kept
                 headers["Content-Security-Policy"] = _POLICY
                 headers[PASS_HEADER] = self._shown
                 if scope["path"].startswith(_VIEWER):

@@ -15,6 +15,8 @@ export class Overlay {
   #labelling;
   #photo;
   #choice = select("overlay");
+  /** @type {ImageBitmap | null} */
+  #layer = null; // what is laid over the photo
 
   /**
    * @param {Labelling} labelling
@@ -24,9 +26,13 @@ export class Overlay {
     this.#labelling = labelling;
     this.#photo = photo;
     labelling.on("legend", ({ stages }) => offer(this.#choice, [NONE, ...stages]));
-    labelling.on("document", ({ fresh }) => fresh && this.#show());
+    labelling.on("document", ({ fresh }) => {
+      if (!fresh) return;
+      this.#layer = null; // it was of the photo before
+      this.#show();
+    });
     this.#choice.addEventListener("change", () => this.#show());
-    input("opacity").addEventListener("input", () => this.#show());
+    input("opacity").addEventListener("input", () => this.#lay(this.#layer));
     for (const id of SLIDERS) input(id).addEventListener("input", () => this.#adjust());
     button("adjust").addEventListener("click", () => {
       const shown = box("adjustments").hidden;
@@ -49,17 +55,22 @@ export class Overlay {
   /** Lay the chosen stage over the photo. */
   async #show() {
     const stage = this.#choice.value;
-    const opacity = Number(input("opacity").value);
     const { document } = this.#labelling;
-    if (stage === NONE || !document) return this.#photo.lay(null, opacity);
+    if (stage === NONE || !document) return this.#lay(null);
     try {
       const layer = await picture(`api/photos/${document.id}/stages/${encodeURIComponent(stage)}`);
-      if (this.#labelling.document?.id === document.id && this.#choice.value === stage) this.#photo.lay(layer, opacity);
+      if (this.#labelling.document?.id === document.id && this.#choice.value === stage) this.#lay(layer);
     } catch (error) {
       this.#choice.selectedIndex = 0;
-      this.#photo.lay(null, opacity);
+      this.#lay(null);
       this.#labelling.say(ApiError.of(error).message, true);
     }
+  }
+
+  /** @param {ImageBitmap | null} layer */
+  #lay(layer) {
+    this.#layer = layer;
+    this.#photo.lay(layer, Number(input("opacity").value));
   }
 
   #adjust() {

@@ -43,7 +43,8 @@ class Opened:
         self._store, self._photo = store, photo
         self.pixels, self._marks = _read(store, photo)
         """``(H, W, 3)`` uint8 RGB."""
-        self._known = pixel_digest(self.pixels)
+        self.known = pixel_digest(self.pixels)
+        """What they are known by."""
         self._keep()
 
     def confirm(self) -> None:
@@ -63,7 +64,7 @@ class Opened:
                 f"{self._photo.name} is not there any more, so nothing is kept for it."
             )
         try:
-            same = pixel_digest(read_photo(path)) == self._known
+            same = pixel_digest(read_photo(path)) == self.known
         except PhotoError as error:
             if time.time_ns() - marks[_CHANGED] < _WRITING:
                 raise BusyError(f"{self._photo.name} is being written, or damaged.") from error
@@ -85,7 +86,7 @@ class Opened:
             return  # it has just vanished
         if _marks(path) == self._marks:
             with suppress(StoreError):  # to be kept the next time; that it fails is said elsewhere
-                self._store.keep_file(self._photo, digest, self._known, stamp)
+                self._store.keep_file(self._photo, digest, self.known, stamp)
 
 
 def read_whole(store: Store, photo: Photo) -> U8:

@@ -1,18 +1,14 @@
-"""Pictures for the page as PNG or JPEG: views of the photo, its line straightened, stages."""
+"""Pictures of a photo for the page, as PNG or JPEG: whole, reduced, in tiles, its line straight."""
 
 from __future__ import annotations
 
-from typing import Any
-
 import cv2
 import numpy as np
-import numpy.typing as npt
 
-from skyline_viz.arrays import F32, U8
-from skyline_viz.colours import coloured
-from skyline_viz.detection import Detection
+from annotate.work.pictures import Picture
+from skyline_viz.arrays import U8
+from skyline_viz.picture_files.reduced import reduced_jpeg
 from skyline_viz.skyline import Skyline
-from skyline_viz.stage import Quantity, of_term
 
 TILE = 512
 """Side of a tile, in pixels."""
@@ -23,18 +19,11 @@ VIEW = 2048
 EXACT = 2_000_000
 """Photos of at most so many pixels are shown as they are."""
 
+SMALL = 160, 240
+"""Most rows and columns of a thumbnail."""
+
 BAND = 40
 """Rows above and below the line in the straightened strip."""
-
-
-def overlays(detection: Detection) -> tuple[str, ...]:
-    """What can be laid over a photo: the maps among its stages, and the terms of its cost.
-
-    A term with the name of a stage, such as the score, is shown by that.
-    """
-    stages = [name for name, one in detection.stages.items() if one.where != "columns"]
-    terms = [term.name for term in detection.cost_model.nodal if term.weight]
-    return tuple(dict.fromkeys([*stages, *terms]))
 
 
 def view_size(height: int, width: int) -> tuple[int, int]:
@@ -49,110 +38,57 @@ def view_size(height: int, width: int) -> tuple[int, int]:
     return max(round(height * scale), 1), max(round(width * scale), 1)
 
 
-def view(photo: U8) -> tuple[bytes, str]:
-    """The whole photo, and its content type: exact where it is small enough."""
+def view(photo: U8) -> Picture:
+    """The whole photo: exact where it is small enough."""
     size = view_size(*photo.shape[:2])
-    if size == photo.shape[:2]:
-        return _png(photo), "image/png"
-    return _jpeg(_reduced(photo, size), 90), "image/jpeg"
+    return png(photo) if size == photo.shape[:2] else jpeg(_reduced(photo, size), 90)
 
 
-def thumbnail(photo: U8) -> bytes:
-    """A JPEG of at most 240 by 160 pixels."""
+def thumbnail(photo: U8) -> Picture:
+    """A JPEG of at most `SMALL` pixels."""
+    return jpeg(_reduced(photo, _small_size(*photo.shape[:2])), 80)
+
+
+def thumbnail_of_file(data: bytes, height: int, width: int) -> Picture | None:
+    """The thumbnail of a photo in a JPEG file, decoded at a fraction of its size.
+
+    Args:
+        data: The file.
+        height: Rows of the photo.
+        width: Its columns.
+
+    Returns:
+        The thumbnail; None where the photo has to be read in the ordinary way.
+    """
+    size = _small_size(height, width)
+    found = reduced_jpeg(data, 2 * size[0], 2 * size[1])  # twice as fine, to be averaged
+    return None if found is None else jpeg(_reduced(found, size), 80)
+
+
+def _small_size(height: int, width: int) -> tuple[int, int]:
+    scale = min(SMALL[1] / width, SMALL[0] / height, 1.0)
+    return max(round(height * scale), 1), max(round(width * scale), 1)
+
+
+def has_tile(photo: U8, across: int, down: int) -> bool:
+    """Whether there is such a tile."""
     height, width = photo.shape[:2]
-    scale = min(240 / width, 160 / height, 1.0)
-    size = max(round(height * scale), 1), max(round(width * scale), 1)
-    return _jpeg(_reduced(photo, size), 80)
+    return bool(down * TILE < height and across * TILE < width)
 
 
-def tile(photo: U8, across: int, down: int) -> bytes | None:
-    """Exact pixels of a tile, as PNG; None where there is no such tile."""
-    part = photo[down * TILE : (down + 1) * TILE, across * TILE : (across + 1) * TILE]
-    return _png(part) if part.size else None
+def tile(photo: U8, across: int, down: int) -> Picture:
+    """Exact pixels of a tile that there is, as PNG."""
+    return png(photo[down * TILE : (down + 1) * TILE, across * TILE : (across + 1) * TILE])
 
 
-def strip(photo: U8, skyline: Skyline, width: int) -> bytes:
+def strip(photo: U8, skyline: Skyline, width: int) -> Picture:
     """The band around a line, straightened, as PNG: the line lies on top of row `BAND`."""
     height = len(photo)
     rows = np.floor(skyline.rows + 0.5).astype(np.intp)
     around = np.arange(-BAND, BAND + 1)[:, None] + rows[None, :]
     band = photo[around.clip(0, height - 1), np.arange(skyline.width)[None, :]]
     band[(around < 0) | (around >= height)] = 0
-    return _png(_reduced(band, (2 * BAND + 1, width)))
-
-
-def stage(detection: Detection, name: str) -> bytes:
-    """A stage or a term of the cost as RGBA, as large as the view of the photo, as PNG.
-
-    Transparent where it has no value; all of it where the detection has no such stage.
-    """
-    shape = detection.edges.shape
-    size = view_size(*shape)
-    layer = _layer(detection, name)
-    if size != shape:
-        layer = cv2.resize(_spread(layer, shape, size), size[::-1], interpolation=cv2.INTER_AREA)
-    _, data = cv2.imencode(".png", cv2.cvtColor(layer, cv2.COLOR_RGBA2BGRA), _FAST)
-    return data.tobytes()
-
-
-def _layer(detection: Detection, name: str) -> U8:
-    shape = detection.edges.shape
-    found = detection.stages.get(name)
-    if found is None:
-        terms = [term for term in detection.cost_model.nodal if term.name == name]
-        return _coloured(of_term(name), terms[0].map()) if terms else _clear(shape)
-    if found.where == "mask":
-        layer = np.full((*shape, 4), 255, np.uint8)
-        layer[..., 3] = np.where(found.values, 255, 0)
-        return layer
-    whole = found.map()
-    if whole is not None:
-        return _coloured(found.quantity, whole)
-    layer = _clear(shape)
-    if found.where == "edges":
-        table = np.array([colour for _, colour in found.legend], np.uint8)
-        rows, columns = detection.edge_rows, detection.edge_columns
-        colours = table[found.values] if found.legend else _colours(found.quantity, found.values)
-        layer[rows, columns, :3] = colours
-        layer[rows, columns, 3] = 255
-    return layer
-
-
-_FAST = [cv2.IMWRITE_PNG_COMPRESSION, 1]
-
-
-def _clear(shape: tuple[int, ...]) -> U8:
-    return np.zeros((*shape, 4), np.uint8)
-
-
-def _coloured(quantity: Quantity, values: F32) -> U8:
-    """A map ``(H, W)`` as RGBA; where there is no value, it has the last colour."""
-    missing = np.isnan(values)
-    known = np.where(missing, values[~missing].max(initial=0.0), values)
-    layer = np.full((*values.shape, 4), 255, np.uint8)
-    layer[..., :3] = _colours(quantity, known)
-    return layer
-
-
-def _colours(quantity: Quantity, values: npt.NDArray[Any]) -> U8:
-    """Colours of values, from the quantity's lowest to its highest, or but for a hundredth."""
-    if values.size == 0:
-        return np.zeros((0, 3), np.uint8)
-    low, high = quantity.low, quantity.high
-    some = values[::4, ::4] if values.ndim == 2 else values
-    if low is None:
-        low = float(np.percentile(some, 0.5))
-    if high is None:
-        high = float(np.percentile(some, 99.5))
-    return coloured(quantity.colour_map, (values - low) / max(high - low, 1e-6))
-
-
-def _spread(layer: U8, shape: tuple[int, ...], size: tuple[int, int]) -> U8:
-    """Thicken single pixels before a reduction, which would make them fade."""
-    if layer[..., 3].all():
-        return layer
-    around = round(shape[1] / size[1])
-    return cv2.dilate(layer, np.ones((around, around), np.uint8)) if around > 1 else layer
+    return png(_reduced(band, (2 * BAND + 1, width)))
 
 
 def _reduced(photo: U8, size: tuple[int, int]) -> U8:
@@ -162,12 +98,20 @@ def _reduced(photo: U8, size: tuple[int, int]) -> U8:
     return reduced
 
 
-def _png(photo: U8) -> bytes:
-    _, data = cv2.imencode(".png", cv2.cvtColor(photo, cv2.COLOR_RGB2BGR), _FAST)
-    return data.tobytes()
+def png(pixels: U8) -> Picture:
+    """A picture ``(H, W, 3)`` RGB or ``(H, W, 4)`` RGBA without loss."""
+    turn = cv2.COLOR_RGBA2BGRA if pixels.shape[2] == 4 else cv2.COLOR_RGB2BGR
+    _, data = cv2.imencode(".png", cv2.cvtColor(pixels, turn), _FAST)
+    return Picture(data.tobytes(), "image/png")
 
 
-def _jpeg(photo: U8, quality: int) -> bytes:
+def jpeg(pixels: U8, quality: int, *, exact_colours: bool = False) -> Picture:
+    """A picture ``(H, W, 3)`` RGB as JPEG; with exact colours these are as fine as its greys."""
     how = [cv2.IMWRITE_JPEG_QUALITY, quality]
-    _, data = cv2.imencode(".jpg", cv2.cvtColor(photo, cv2.COLOR_RGB2BGR), how)
-    return data.tobytes()
+    if exact_colours:
+        how += [cv2.IMWRITE_JPEG_SAMPLING_FACTOR, cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444]
+    _, data = cv2.imencode(".jpg", cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR), how)
+    return Picture(data.tobytes(), "image/jpeg")
+
+
+_FAST = [cv2.IMWRITE_PNG_COMPRESSION, 1]

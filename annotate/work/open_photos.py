@@ -25,8 +25,9 @@ SESSION = 27
 forbids (4), and the two tables of the live wire (8 each)."""
 
 KEPT = 28
-"""Bytes a pixel of a detection that is kept with its open photo: edges (1), costs (4), the forward
-table (8), and what is known of its edge pixels, 32 each: on noise every third pixel is one."""
+"""Bytes a pixel that a detection which is kept with its open photo is counted as until it is there:
+edges (1), costs (4), the forward table (8), and what is known of its edge pixels, 32 each: on noise
+every third pixel is one."""
 
 BLIND = 3
 """Bytes a pixel of an open photo that is labelled blind: its pixels."""
@@ -113,6 +114,13 @@ class OpenPhotos(Generic[Value]):
             self._make_room(photo)
             return future, True
 
+    def lighten(self, photo: int, size: int) -> None:
+        """An open photo takes less than was counted."""
+        with self._lock:
+            if photo in self._photos:
+                future, counted = self._photos[photo]
+                self._photos[photo] = future, min(size, counted)
+
     def show(self, photo: int) -> None:
         """From now on this photo is the one that stays, and the one before may be closed."""
         with self._lock:
@@ -120,8 +128,8 @@ class OpenPhotos(Generic[Value]):
             self._make_room(photo)
 
     def keeps(self, photo: Photo) -> bool:
-        """Whether a photo keeps its detection while it is open: all that are of use have to fit."""
-        return OPEN_AT_MOST * (SESSION + KEPT) * photo.height * photo.width <= self._budget
+        """Whether a photo keeps its detection while it is shown or next: both have to fit."""
+        return 2 * (SESSION + KEPT) * photo.height * photo.width <= self._budget
 
     def fits(self, size: int) -> bool:
         """Whether a photo of so many bytes fits beside the one that is shown."""
@@ -163,32 +171,3 @@ class OpenPhotos(Generic[Value]):
         closable = [one for one in self._photos if one not in (newest, self._shown)]
         while closable and (len(self._photos) > OPEN_AT_MOST or self.total > self._budget):
             del self._photos[closable.pop(0)]
-
-
-class SmallPictures:
-    """Pictures by photo, up to a number of bytes; the least recently used ones go first."""
-
-    def __init__(self, budget: int = 64_000_000) -> None:
-        """Begin with none.
-
-        Args:
-            budget: Bytes that all of them may take together.
-        """
-        self._budget, self._total = budget, 0
-        self._pictures: OrderedDict[int, bytes] = OrderedDict()
-        self._lock = threading.Lock()
-
-    def get(self, photo: int) -> bytes | None:
-        """The picture of a photo; None where it is not kept."""
-        with self._lock:
-            if photo in self._pictures:
-                self._pictures.move_to_end(photo)
-            return self._pictures.get(photo)
-
-    def keep(self, photo: int, picture: bytes) -> None:
-        """Keep a picture, and forget others for it."""
-        with self._lock:
-            self._total += len(picture) - len(self._pictures.pop(photo, b""))
-            self._pictures[photo] = picture
-            while self._total > self._budget:
-                self._total -= len(self._pictures.popitem(last=False)[1])

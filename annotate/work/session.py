@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import threading
+from functools import cached_property
+from time import sleep
 
 from annotate.engine.edits import EditError, Edits
 from annotate.engine.live_wire import LiveWire
@@ -12,10 +14,14 @@ from annotate.store.lines import Line
 from annotate.store.opened import Opened
 from annotate.store.operations import Logged, Open, Operation, Redo, SetStatus, SetTag, Undo
 from annotate.store.store import Photo, Store
-from skyline_viz.arrays import U8
+from skyline_viz.arrays import F64, U8
 from skyline_viz.constraints import PathError
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.method import Method
+from skyline_viz.methods.registry import method_digest
+
+_PIECE = 256  # columns whose margins are measured at a time
+_YIELD = 0.001  # seconds in which another thread takes the lock
 
 
 class Session:
@@ -58,6 +64,16 @@ class Session:
             store.propose(label, self._line(), self.detector, margin)
             self.state = store.state(label)
         self._resume()
+
+    @property
+    def content(self) -> str:
+        """What the open pixels are known by, `identity.pixel_digest`."""
+        return self._opened.known
+
+    @cached_property
+    def proposer(self) -> str:
+        """What the detector is known by: SHA-256 of its settings and of what it has learned."""
+        return method_digest(self.detector)
 
     def apply(self, operation: Operation, revision: int, id: str | None = None) -> int:  # noqa: A002
         """Do something, and keep it: when this returns, it is on the disk.
@@ -110,6 +126,18 @@ class Session:
         """Do now what the next preview would wait for."""
         with self.lock:
             self.wire.refresh()
+
+    def margins(self) -> tuple[int, F64]:
+        """The revision, and how sure its line is in each column.
+
+        They are measured a piece at a time, and between two pieces whoever wants to change the line
+        comes first.
+        """
+        while True:
+            with self.lock:
+                if not self.wire.measure(_PIECE):
+                    return self.state.revision, self.wire.margin
+            sleep(_YIELD)
 
     def _step(self, operation: Undo | Redo, revision: int, known_by: str | None) -> int:
         with self.lock:

@@ -11,9 +11,7 @@ from typing import Literal
 import numpy as np
 
 from annotate.store.cards import Card
-from annotate.store.opened import read_whole
 from annotate.store.store import Photo, Store
-from annotate.work import images
 from annotate.work.doubts import columns_of
 from annotate.work.joined import Joined, joined
 from annotate.work.open_photos import (
@@ -21,10 +19,10 @@ from annotate.work.open_photos import (
     KEPT,
     SESSION,
     OpenPhotos,
-    SmallPictures,
     detection_bytes,
     require_room,
 )
+from annotate.work.overlays import overlays
 from annotate.work.session import Session
 from skyline_viz.detection import Detection
 from skyline_viz.method import Method
@@ -108,7 +106,6 @@ class Workbench:
         self._lock = threading.RLock()
         self._ahead = ThreadPoolExecutor(1, "ahead")
         self._soon = ThreadPoolExecutor(1, "soon")
-        self._thumbnails = SmallPictures()
         self._detection: tuple[int, int, Detection] | None = None
         chance = np.random.default_rng([assignment.seed, 1])
         drawn = chance.random(len(self.photos)) < assignment.blind
@@ -179,6 +176,11 @@ class Workbench:
             self._fill(photo, future)
         return future.result()
 
+    def is_open(self, photo: int) -> bool:
+        """Whether a photo is open, so that asking for its session does not wait."""
+        waiting = self._open.get(photo)
+        return waiting is not None and waiting.done()
+
     def prepare_after(self, photo: int) -> None:
         """Show a photo, and open the next one to do in the background where both fit."""
         with self._lock:
@@ -186,6 +188,7 @@ class Workbench:
                 self._detection = None
                 self._open.drop_beside()
             self._open.show(photo)
+            self._let_go_of_detections(photo)
 
         def work() -> None:
             cards = self.cards()
@@ -230,19 +233,19 @@ class Workbench:
         Of a method that refuses so small a photo only the stages that all methods have are known.
         """
         try:
-            return images.overlays(self.detector.detect(_SMALL))
+            return overlays(self.detector.detect(_SMALL))
         except Exception:  # of somebody's own method; what is wrong is said where it proposes
             return ("edges", "score", "cost")
 
-    def detection(self, photo: int) -> Detection:
-        """All stages of a photo, by the detector that made its proposal.
+    def detection(self, session: Session) -> Detection:
+        """All stages of an open photo, by the detector that made its proposal.
 
-        That of an open photo is at hand unless the photo is large or blind; one of these is kept
-        if it fits.
+        They are at hand unless the photo is large or blind; those of one of these are kept if they
+        fit.
         """
-        session = self.session(photo)
-        if session.wire.detection is not None:
-            return session.wire.detection
+        photo, held = session.photo.id, session.wire.detection
+        if held is not None:
+            return held
         with self._lock:
             kept = self._detection
             if kept and kept[:2] == (photo, id(session.detector)):
@@ -261,30 +264,19 @@ class Workbench:
         with closing(Store(self.store.folder, of=self.store)) as store:
             return joined(store, who.annotator, who.number)
 
-    def thumbnail(self, photo: int) -> bytes:
-        """A small picture of a photo, as JPEG."""
-        picture = self._thumbnails.get(photo)
-        if picture is None:
-            with self._work:
-                picture = images.thumbnail(read_whole(self.store, self.photo(photo)))
-            self._thumbnails.keep(photo, picture)
-        return picture
+    def _let_go_of_detections(self, shown: int) -> None:
+        """Only the photo that is shown keeps its detection, and the next one will."""
+        for photo in self._open.open:
+            if photo != shown and self.is_open(photo):
+                session = self.session(photo)
+                session.wire.detection = None
+                self._count(session)
 
-    def strip(self, photo: int, width: int) -> bytes:
-        """The straightened strip of a photo, as PNG.
-
-        Raises:
-            PathError: There is no line yet.
-        """
-        waiting = self._open.get(photo)
-        line = self.store.line(self.label(photo))
-        if line is None or (waiting and waiting.done()):
-            session = self.session(photo)
-            with session.lock:
-                return images.strip(session.pixels, session.wire.skyline, width)
-        with self._work:
-            pixels = read_whole(self.store, self.photo(photo))
-            return images.strip(pixels, line.skyline, width)
+    def _count(self, session: Session) -> None:
+        """Count what an open photo really takes: most have far fewer edges than is allowed for."""
+        one, held = session.photo, session.wire.detection
+        own = one.height * one.width * (BLIND if session.blind else SESSION)
+        self._open.lighten(one.id, own + (detection_bytes(held) if held else 0))
 
     def _future(self, photo: int) -> tuple[Future[Session], bool]:
         """What an open photo will be, and whether the caller has to open it."""
@@ -311,6 +303,7 @@ class Workbench:
                     blind=blind,
                     keep=self._open.keeps(one),
                 )
+            self._count(session)
             future.set_result(session)
         except BaseException as error:
             self.close_photo(photo)

@@ -207,7 +207,7 @@ def _open_one_after_another(folder: Path) -> tuple[int, int]:
             bench.prepare_after(photo)
             with session.lock:
                 session.wire.refresh()
-            bench.detection(photo)
+            bench.detection(bench.session(photo))
             bench._ahead.submit(lambda: None).result()  # until the next one is prepared
             held, most = max(held, bench._open.total), max(most, len(bench._open.open))
     finally:

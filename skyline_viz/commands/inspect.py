@@ -100,7 +100,8 @@ class Inspect:
     """How to read masks that leave a choice."""
 
     full_megapixels: Annotated[float, tyro.conf.arg(metavar="N")] = FULL_MEGAPIXELS
-    """Million pixels in one recording that are kept in full, 36 bytes each; more are kept lean."""
+    """Million pixels in one recording that are kept in full, 36 bytes each; of a larger photo all
+    near its line, of more photos lean maps."""
 
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
@@ -125,7 +126,9 @@ class Inspect:
         return status_after(failures) or (GOOD if files else SOME_FAILED)
 
     def _foresee(self, inputs: Sequence[NamedItem]) -> dict[str, int]:
-        """Say what is too large, or is kept lean; return the pixels of each input by name."""
+        """Say what is too large, or is kept in part; return the pixels of each input by name."""
+        from skyline_viz.viewer.contents import fidelity_of
+
         if not 0 <= self.full_megapixels < float("inf"):
             raise UsageError(f"--full-megapixels is 0 or more, not {self.full_megapixels:g}.")
         named = (replace(one.item, name=one.name) for one in inputs)
@@ -135,9 +138,12 @@ class Inspect:
         full = total <= self.full_megapixels * 1e6
         if not full:
             size = in_words(FULL_RECORDING * total)
+            alone = self.split or len(inputs) == 1
+            near = fidelity_of(total, self.full_megapixels, alone=alone) == "full"
             say(
-                f"maps are kept lean: {total / 1e6:.1f} megapixels in full would be {size} in one "
-                f"recording; --full-megapixels {math.ceil(total / 1e6)} keeps them."
+                f"maps are kept {'whole near the line alone' if near else 'lean'}: "
+                f"{total / 1e6:.1f} megapixels in full would be {size} in one recording; "
+                f"--full-megapixels {math.ceil(total / 1e6)} keeps them."
             )
         items = (one.item for one in inputs)
         foresee(items, workers=1, bytes_a_pixel=RECORDING_FULL if full else RECORDING)
@@ -211,7 +217,7 @@ class Inspect:
             for group in groups:
                 name = group[0].name if len(group) == 1 else self.photos[0].resolve().name
                 total = sum(pixels.get(one.name, 0) for one in group)
-                fidelity = fidelity_of(total, self.full_megapixels)
+                fidelity = fidelity_of(total, self.full_megapixels, alone=len(group) == 1)
                 together = self.save if not self.split else None
                 file = together or folder / f"{recording_id(name)}.rrd"
                 with suppress(_Nothing), new_recording(file, name) as recording:

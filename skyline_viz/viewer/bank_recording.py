@@ -79,11 +79,15 @@ def log_path_bins(recording: rr.RecordingStream, detection: FilterDetection) -> 
 
 def path_bins(detection: FilterDetection) -> Int:
     """Bin that the path used in each column, ``(W,)``; -1 where it crosses no edge."""
-    height, width = detection.edges.shape
+    width = detection.edges.shape[1]
     rows = detection.skyline.rows.astype(np.intp)
-    pixel = np.full((height, width), -1, np.int32)
-    pixel[detection.edge_rows, detection.edge_columns] = detection.bins
-    return pixel[rows, np.arange(width)]
+    places = detection.edge_rows.astype(np.intp) * width + detection.edge_columns  # ascending
+    wanted = rows * width + np.arange(width)
+    found = np.searchsorted(places, wanted).clip(max=max(len(places) - 1, 0))
+    on_edge = detection.edges[rows, np.arange(width)]
+    bins = np.full(width, -1, np.int32)
+    bins[on_edge] = detection.bins[found[on_edge]]
+    return bins
 
 
 _CLEAR = (0, 0, 0, 0)

@@ -10,23 +10,37 @@ from skyline_viz.stage import OURS, Quantity, of_term
 from skyline_viz.system.memory import FULL_MEGAPIXELS
 from skyline_viz.viewer.stage_maps import shown_terms
 
-Fidelity: TypeAlias = Literal["lean", "full"]
+Fidelity: TypeAlias = Literal["lean", "full", "exact"]
 """How much is kept.
 
 *lean*, for data sets: the photo as JPEG; maps, in 255 levels, of the `stage_maps.LEAN_PIXELS`
 cheapest edge pixels of each column, and of those on the path and on the truth.
 *full*, for a photo: the photo without loss; tensor, cost and detour of every pixel, score and bin
-of every edge pixel, to four digits on hovering, and exact as numbers.
+of every edge pixel, to four digits on hovering, and exact as numbers. Of photos of more than
+`FULL_MEGAPIXELS` they are kept near the lines, see `near.Near`, and the report says so.
+*exact*: the same of all pixels, however large the photo is.
 """
 
 
-def fidelity_of(pixels: int, full_megapixels: float = FULL_MEGAPIXELS) -> Fidelity:
+def fidelity_of(
+    pixels: int, full_megapixels: float = FULL_MEGAPIXELS, *, alone: bool = False
+) -> Fidelity:
     """How much to keep of photos of so many pixels in all.
 
-    >>> fidelity_of(1388 * 519), fidelity_of(20000 * 2000)
-    ('full', 'lean')
+    Args:
+        pixels: How many.
+        full_megapixels: Million pixels that may all be kept.
+        alone: Whether it is a single photo, which is kept near its lines if it is larger, unless
+            less than usual is wanted.
+
+    >>> fidelity_of(1388 * 519), fidelity_of(20000 * 2000), fidelity_of(20000 * 2000, alone=True)
+    ('full', 'lean', 'full')
+    >>> fidelity_of(20000 * 2000, 40)
+    'exact'
     """
-    return "full" if pixels <= full_megapixels * 1e6 else "lean"
+    if pixels <= full_megapixels * 1e6:
+        return "full" if pixels <= FULL_MEGAPIXELS * 1e6 else "exact"
+    return "full" if alone and full_megapixels >= FULL_MEGAPIXELS else "lean"
 
 
 @dataclass(frozen=True)
@@ -105,7 +119,7 @@ class Contents:
             more: What else there is to say, by the names of the fields.
         """
         height, width = detection.edges.shape
-        full = fidelity == "full"
+        full = fidelity != "lean"
         terms = tuple(of_term(term.name) for term in shown_terms(detection)) if full else ()
         bank = full and detection.bank is not None
         return cls(height, width, stages=_shown(detection), terms=terms, bank=bank, **more)

@@ -51,6 +51,10 @@ EDGE_PIXELS = "edge_pixels"
 """Exact values at the edge pixels: edge_row, edge_column, bin, strength, coherence, orientation,
 score, cost."""
 
+EXACT = "exact"
+"""Where a full recording of a large photo keeps its maps exactly, in white on black: the numbers
+called ``exact`` beside the maps are of these pixels, row by row. Missing where all are kept."""
+
 PATH = "skyline/path"
 """Stage 6: the detected skyline."""
 

@@ -12,8 +12,9 @@ at y = row.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 
 import cv2
@@ -28,8 +29,9 @@ from skyline_viz.detection import Detection
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.files import replacing
 from skyline_viz.skyline import Skyline, SkylineError
-from skyline_viz.stage import Quantity
+from skyline_viz.stage import DETOUR, Quantity
 from skyline_viz.system.endings import held_back
+from skyline_viz.system.memory import FULL_MEGAPIXELS
 from skyline_viz.system.names import printable, recording_id, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_recording import log_filter_bank
@@ -37,6 +39,7 @@ from skyline_viz.viewer.blueprints import detection_blueprint, stages_blueprint
 from skyline_viz.viewer.column_views import TRUTH_RADIUS, log_columns, log_line
 from skyline_viz.viewer.contents import Contents, Fidelity
 from skyline_viz.viewer.documents import markdown_document
+from skyline_viz.viewer.near import Near
 from skyline_viz.viewer.report import report
 from skyline_viz.viewer.rerun_file import saved
 from skyline_viz.viewer.rerun_internals import let_go_of_orphans
@@ -46,6 +49,7 @@ from skyline_viz.viewer.stage_maps import (
     log_detour,
     log_exact_map,
     log_maps,
+    places_of,
     shown_pixels,
 )
 
@@ -121,12 +125,20 @@ def log_detection(
     at = partial(entities.below, under)
     photo = detection.photo
     height = len(photo)
-    shown = shown_pixels(detection, truth) if fidelity == "lean" else None
+    near = _near(recording, at, detection, truth) if fidelity == "full" else None
+    shown = shown_pixels(detection, truth) if near or fidelity == "lean" else None
+    if near and shown is not None:
+        shown |= near.mask[detection.edge_rows, detection.edge_columns]
     recording.log(at(entities.PHOTO), _encoded(photo, fidelity))
-    count = log_maps(recording, at, detection, shown)
+    count = log_maps(recording, at, detection, shown, near)
     unsure = detection.uncertainty()  # while the maps above are being compressed
     verdict = Verdict.of(detection.skyline, unsure.margins, height, truth)
-    log_detour(recording, at, detection, unsure.detour, shown)
+    if near:
+        detour = near.sample(places_of(unsure.detour))
+        unsure = replace(unsure, detour=detour.blocks)  # and no map of the whole photo any more
+        near.log(recording, at(entities.DETOUR), DETOUR, detour)
+    else:
+        log_detour(recording, at, detection, unsure.detour, shown)
     log_line(recording, at(entities.PATH), detection.skyline, PATH)
     if truth:
         log_line(recording, at(entities.TRUTH), truth, TRUTH, TRUTH_RADIUS)
@@ -139,15 +151,30 @@ def log_detection(
             recording.log(at(f"{entities.METRICS}/{metric}"), rr.Scalars(value))
     for stage, seconds in detection.seconds.items():
         recording.log(at(f"{entities.TIMINGS}/{stage}"), rr.Scalars(1000 * seconds))
-    text = report(name, detection, verdict, count)
+    text = report(name, detection, verdict, count, near.said() if near else "")
     recording.log(at(entities.REPORT), markdown_document(text))
-    if fidelity == "full":
+    if fidelity != "lean":
         if detection.bank is not None:
             log_filter_bank(recording, detection.bank, under=under)
         if not under:
             contents = Contents.of(detection, fidelity, truth=truth is not None)
             _lay_out(recording, detection_blueprint(contents))
     return verdict
+
+
+def _near(
+    recording: rr.RecordingStream,
+    at: Callable[[str], str],
+    detection: Detection,
+    truth: Skyline | None,
+) -> Near | None:
+    """Log which pixels of a large photo are kept exactly; None where all are."""
+    height, width = detection.edges.shape
+    if height * width <= FULL_MEGAPIXELS * 1e6:
+        return None
+    near = Near.to((height, width), detection.skyline, truth)
+    recording.log(at(entities.EXACT), encoded_edges(near.mask))
+    return near
 
 
 def log_stages(

@@ -12,7 +12,7 @@ from skyline_viz.system.names import named_in_markdown
 _MOST_SEGMENTS = 6
 
 
-def report(name: str, detection: Detection, verdict: Verdict, shown: int) -> str:
+def report(name: str, detection: Detection, verdict: Verdict, shown: int, near: str = "") -> str:
     """Say how good a detection is, how sure, how long it took, and how it was made.
 
     Args:
@@ -20,9 +20,11 @@ def report(name: str, detection: Detection, verdict: Verdict, shown: int) -> str
         detection: The detection.
         verdict: What it comes to.
         shown: Number of edge pixels that the maps show.
+        near: What the maps show of a large photo, as a sentence, see `near.Near`.
     """
     height, width = detection.edges.shape
     edges = len(detection.scores)
+    few = near or shown < edges
     lines = [
         f"**{named_in_markdown(name or 'photo')}**  ",
         f"{width} x {height} px",
@@ -32,7 +34,7 @@ def report(name: str, detection: Detection, verdict: Verdict, shown: int) -> str
         *([f"{detection.visibility.said}  "] if detection.visibility else []),
         f"**Margin** {verdict.margin:.3g}, least sure at column {verdict.unsure_column}  ",
         f"**Edges** {edges:,} pixels ({edges / (width * height):.0%})  ",
-        *([f"Maps show the {shown:,} cheapest of their columns  "] if shown < edges else []),
+        *([f"{near or f'Maps show the {shown:,} cheapest of their columns'}  "] if few else []),
         f"**Path cost** {detection.path_cost:.4g}  ",
     ]
     stages = ", ".join(f"{one} {1000 * took:.0f}" for one, took in detection.seconds.items())

@@ -19,6 +19,7 @@ from skyline_viz.skyline import Skyline
 from skyline_viz.stage import DETOUR, OURS, Quantity, Stage, of_term
 from skyline_viz.terms import Term
 from skyline_viz.viewer import entities
+from skyline_viz.viewer.near import Near, Sampler
 from skyline_viz.viewer.value_maps import BANDS, COARSE, FINE, dense_map, sparse_map
 
 _RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
@@ -36,6 +37,7 @@ def log_maps(
     at: Callable[[str], str],
     detection: Detection,
     shown: Bool | None,
+    near: Near | None = None,
 ) -> int:
     """Log all stages of a detection that are maps, whatever they are.
 
@@ -46,31 +48,47 @@ def log_maps(
         shown: ``(n,)`` which edge pixels to show, see `shown_pixels`; None shows all of them, adds
             tensor and cost of all other pixels, the terms of the cost, and everything exact, as
             numbers.
+        near: Where these are kept exactly of a large photo, see `Near`; None keeps them everywhere
+            or, if lean, nowhere.
 
     Returns:
         The number of edge pixels that are shown.
     """
     kept: npt.NDArray[np.intp] | slice = slice(None) if shown is None else np.flatnonzero(shown)
     rows, columns = detection.edge_rows[kept], detection.edge_columns[kept]
-    shape = detection.edges.shape
+    shape, full = detection.edges.shape, shown is None or near is not None
     table: dict[str, Any] = {"edge_row": rows, "edge_column": columns}
-    for name, stage in detection.stages.items():
+    stages = dict(detection.stages)
+    for name in tuple(stages):
+        stage = stages.pop(name)  # its map may be as large as the photo, and is let go of
         entity = at(entities.of_quantity(stage.quantity))
         if stage.where == "mask":
             recording.log(entity, encoded_edges(np.asarray(stage.values, np.bool_)))
+        elif near and (stage.where == "photo" or stage.dense):
+            near.log(recording, entity, stage.quantity, near.sample(_sampler(stage)))
+            if not stage.quantity.smooth:
+                values = stage.values if stage.where == "edges" else stage.values[rows, columns]
+                table[name] = values[kept] if stage.where == "edges" else values
         elif stage.where == "photo" and stage.quantity.smooth:  # whole even if lean
             levels = FINE if shown is None else BANDS
             dense_map(stage.quantity, stage.values, levels).log(recording, entity)
         elif stage.where in ("edges", "photo"):
             values = stage.values[kept] if stage.where == "edges" else stage.values[rows, columns]
             table[name] = values
-            _log_stage(
-                recording, entity, stage, values, (shape, rows, columns), exact=shown is None
-            )
-    if shown is None:
+            _log_stage(recording, entity, stage, values, (shape, rows, columns), exact=full)
+    if full:
         recording.log(at(entities.EDGE_PIXELS), rr.AnyValues(True, **table))
-        log_terms(recording, at, detection)
+        log_terms(recording, at, detection, near)
     return len(rows)
+
+
+def _sampler(stage: Stage) -> Sampler:
+    """What gives the values of a stage at some pixels."""
+    if stage.at:
+        return stage.at
+    whole = stage.map()
+    assert whole is not None
+    return places_of(whole)
 
 
 def _log_stage(
@@ -100,14 +118,29 @@ def _log_stage(
 
 
 def log_terms(
-    recording: rr.RecordingStream, at: Callable[[str], str], detection: Detection
+    recording: rr.RecordingStream,
+    at: Callable[[str], str],
+    detection: Detection,
+    near: Near | None = None,
 ) -> None:
     """Log what each pixel pays for each term of the nodal cost; nothing where it pays nothing."""
     for term in shown_terms(detection):
+        quantity = of_term(term.name)
+        entity = at(entities.of_quantity(quantity))
+        if near:
+            sampled = near.sample(places_of(term.map()))
+            for some in (sampled.blocks, sampled.exact):
+                some[some == 0] = np.nan
+            near.map(quantity, sampled, COARSE).log(recording, entity)
+            continue
         paid = term.map()
         paid[paid == 0] = np.nan
-        quantity = of_term(term.name)
-        dense_map(quantity, paid, COARSE).log(recording, at(entities.of_quantity(quantity)))
+        dense_map(quantity, paid, COARSE).log(recording, entity)
+
+
+def places_of(whole: npt.NDArray[np.floating[Any]]) -> Sampler:
+    """What gives the values of a map at some pixels."""
+    return lambda rows, columns: whole[rows, columns]
 
 
 def shown_terms(detection: Detection) -> list[Term]:

@@ -78,31 +78,34 @@ def sparse_map(
         values: ``(n,)``.
         levels: Values to tell apart, `COARSE` or `FINE`.
     """
-    low, high = _range(quantity, values)
+    low, high = value_range(quantity, values)
     classes = np.zeros(shape, _dtype(levels))
-    classes[rows, columns] = _levels(values, low, high, levels)
+    classes[rows, columns] = classes_of(values, low, high, levels)
     return ValueMap(classes, levels, quantity, low, high)
 
 
 def dense_map(quantity: Quantity, values: npt.NDArray[np.floating], levels: int) -> ValueMap:
     """Map ``(H, W)`` of values; NaN is no value, and infinite counts as the end of the range."""
-    known = ~np.isnan(values)
-    low, high = _range(quantity, values[np.isfinite(values)])
-    classes = np.where(known, _levels(np.where(known, values, low), low, high, levels), 0)
-    return ValueMap(classes.astype(_dtype(levels)), levels, quantity, low, high)
+    low, high = value_range(quantity, values[np.isfinite(values)])
+    return ValueMap(classes_of(values, low, high, levels), levels, quantity, low, high)
 
 
 def _dtype(levels: int) -> type[np.uint8 | np.uint16]:
     return np.uint8 if levels <= COARSE else np.uint16
 
 
-def _range(quantity: Quantity, values: npt.NDArray[np.floating]) -> tuple[float, float]:
-    """Range of a map, rounded outwards to halves of a power of ten: photos share their legends."""
+def value_range(quantity: Quantity, *values: npt.NDArray[np.floating[Any]]) -> tuple[float, float]:
+    """Range of a map, rounded outwards to halves of a power of ten: photos share their legends.
+
+    Args:
+        quantity: What it shows, which may say where the range begins and ends.
+        values: All finite values, in any number of arrays.
+    """
     low, high = quantity.low, quantity.high
     if low is None:
-        low = float(values.min(initial=0.0))
+        low = float(min(one.min(initial=0.0) for one in values))
     if high is None:
-        high = float(values.max(initial=low))
+        high = float(max(one.max(initial=low) for one in values))
     span = high - low
     if span <= 0:
         return low, low + 1.0
@@ -112,12 +115,14 @@ def _range(quantity: Quantity, values: npt.NDArray[np.floating]) -> tuple[float,
     return first, last
 
 
-def _levels(
-    values: npt.NDArray[np.floating], low: float, high: float, levels: int
-) -> npt.NDArray[np.uint16]:
-    scaled: npt.NDArray[np.floating] = (values - low) * ((levels - 1) / (high - low)) + 1.5
-    classes: npt.NDArray[np.uint16] = np.clip(scaled, 1.0, levels).astype(np.uint16)
-    return classes
+def classes_of(
+    values: npt.NDArray[np.floating[Any]], low: float, high: float, levels: int
+) -> npt.NDArray[np.unsignedinteger[Any]]:
+    """Class of each value: 1 + its level; 0 where there is none, which is NaN."""
+    scaled = (values - low) * ((levels - 1) / (high - low)) + 1.5
+    np.clip(scaled, 1.0, levels, out=scaled)
+    np.copyto(scaled, 0.0, where=np.isnan(scaled))
+    return scaled.astype(_dtype(levels))
 
 
 @lru_cache(maxsize=64)

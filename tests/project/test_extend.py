@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from annotate.work import images
+from annotate.work.overlays import overlay, overlays
 from skyline_viz import cost
 from skyline_viz.diagnosis.cost_split import split_cost
 from skyline_viz.diagnosis.diagnosing import diagnose
@@ -86,8 +86,8 @@ def test_the_viewer_shows_it(found, tmp_path):
 
 
 def test_the_page_can_lay_it_over_the_photo(found):
-    assert "depth" in images.overlays(found)
-    assert images.stage(found, "depth") not in (
-        images.stage(found, "x"),
-        images.stage(found, "cost"),
+    assert "depth" in overlays(found)
+    assert overlay(found, "depth") not in (
+        overlay(found, "x"),
+        overlay(found, "cost"),
     )

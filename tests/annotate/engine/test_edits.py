@@ -41,7 +41,7 @@ def test_a_stroke_on_others_is_painted_as_all_of_them_afresh():
         wire.refresh()
         forbidden = paint(history[-1].strokes, *photo.shape[:2])
         np.testing.assert_array_equal(
-            wire._allowed, np.where(forbidden, np.float32(np.inf), wire._cost)
+            wire._tables.allowed, np.where(forbidden, np.float32(np.inf), wire._tables._cost)
         )
 
 

@@ -33,6 +33,11 @@ ROUTES = [
 ]
 
 
+PICTURES = [f"/api/photos/1/{name}" for name in ("image", "thumbnail", "tiles/0/0", "strip")]
+PICTURES.append("/api/photos/1/stages/edges")
+PAGES = ("/", "/static/index.html")
+
+
 @pytest.mark.parametrize(("method", "route"), ROUTES)
 class TestRefusals:
     def test_another_host(self, client, method, route):
@@ -76,7 +81,9 @@ class TestRefusals:
         assert headers["x-content-type-options"] == "nosniff"
         assert "default-src 'none'" in headers["content-security-policy"]
         assert "unsafe" not in headers["content-security-policy"]
-        assert headers["cache-control"] == "no-store"
+        kept = "private, no-cache" if route in PICTURES else "no-store"
+        assert headers["cache-control"] == kept
+        assert ("etag" in headers) == (route in PICTURES or route in PAGES)
 
 
 def test_web_sockets_are_closed_before_anything_sees_them():

@@ -12,7 +12,6 @@ from annotate.work.open_photos import (
     OPEN_AT_MOST,
     OPENING,
     OpenPhotos,
-    SmallPictures,
     detection_bytes,
     require_room,
 )
@@ -64,6 +63,16 @@ def test_what_is_kept_beside_a_photo_counts():
     assert photos.total == 40
 
 
+def test_a_photo_takes_no_more_than_was_counted():
+    photos = OpenPhotos(100)
+    photos.take(1, 40)
+    photos.lighten(1, 50)
+    assert photos.total == 40
+    photos.lighten(1, 30)
+    photos.lighten(2, 1)
+    assert (photos.open, photos.total) == ([1], 30)
+
+
 @given(
     st.lists(
         st.tuples(st.sampled_from(["take", "show", "beside"]), st.integers(1, 5)), max_size=25
@@ -85,18 +94,6 @@ def test_photos_never_take_more_than_there_is_but_for_the_two_in_use(steps, size
         if not (what == "take" and is_open):  # which makes no room: it took its own before
             newest = photo
         assert photos.total <= 100 or set(photos.open) <= {shown, newest}
-
-
-def test_pictures_are_forgotten_when_there_are_too_many():
-    pictures = SmallPictures(budget=10)
-    pictures.keep(1, b"1234")
-    pictures.keep(2, b"1234")
-    assert pictures.get(1) == b"1234"
-    pictures.keep(3, b"1234")
-    assert (pictures.get(1), pictures.get(2), pictures.get(3)) == (b"1234", None, b"1234")
-    pictures.keep(3, b"1")
-    pictures.keep(4, b"12345")
-    assert (pictures.get(1), pictures.get(4)) == (b"1234", b"12345")
 
 
 def test_a_photo_that_does_not_fit_is_not_opened(monkeypatch):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from annotate.store.operations import SetAnchor, SetStatus
-from annotate.work import images
 from annotate.work.learning import LEAST, Learner
+from annotate.work.overlays import overlay
 from skyline_viz.method import MethodError
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.methods.gradient import GradientCost
@@ -44,7 +44,8 @@ def test_a_label_goes_on_with_the_method_that_proposed_it(folder):
 def test_every_stage_of_another_method_can_be_shown(folder):
     bench = proposing(folder, EdgesOnly())
     for name in ("edges", "score", "cost", "bin", "strength"):
-        assert images.stage(bench.detection(next(iter(bench.photos))), name)[1:4] == b"PNG"
+        detection = bench.detection(bench.session(next(iter(bench.photos))))
+        assert overlay(detection, name).data[1:4] == b"PNG"
     bench.close()
 
 

@@ -11,7 +11,7 @@ import pytest
 
 import skyline_viz as sv
 from annotate import LiveWire
-from annotate.work import images
+from annotate.work.overlays import overlay
 from skyline_viz.cli import main
 from skyline_viz.command_line.inputs import collect
 from skyline_viz.commands.gallery import build
@@ -155,7 +155,7 @@ def test_it_proposes_for_labels_and_is_kept(drop):
     wanted = method.detect(session.pixels).skyline.rows
     np.testing.assert_array_equal(session.wire.skyline.rows, wanted.astype(int))
     for name in ("edges", "score", "cost"):
-        assert images.stage(bench.detection(photo), name)[1:4] == b"PNG"
+        assert overlay(bench.detection(bench.session(photo)), name).data[1:4] == b"PNG"
     kept = bench.store.detector(bench.label(photo))
     assert (kept.name, kept.inner.blur) == ("drop:blur=3", 3.0)
     bench.close()

@@ -1,0 +1,193 @@
+"""The tables of the cheapest costs, from the left and from the right, and what is stale of them.
+
+They belong to a plan. When another one is asked for, only what it changes is swept again: in a run
+whose costs or whose end have changed, from there on. Far from a change all costs differ from those
+before by one and the same amount, and a sweep ends there: nothing that is asked of a table depends
+on an amount that is the same for a whole column.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numba
+import numpy as np
+
+from annotate.engine.edits import Stroke, paint
+from annotate.engine.plan import Plan, Stale, painted_between
+from skyline_viz.arrays import F32, F64, Bool, runs
+from skyline_viz.path import APART, column_margin, min_marginals, sweep
+
+FORWARD, BACKWARD = True, False
+"""The table of costs from the left, and the one from the right."""
+
+_POOL = ThreadPoolExecutor(2, "sweep")
+_STRIDE = 64  # columns that are swept before it is looked at whether more of them change
+_EQUAL = 1e-9  # costs that differ by less are equal: they are sums of some thousand float32
+
+
+class Tables:
+    """Costs of a photo's pixels, and tables of the cheapest lines to them from either side."""
+
+    def __init__(self, cost: F32, delta: int, link_weight: float) -> None:
+        """Begin with nothing swept.
+
+        Args:
+            cost: ``(W, H)`` nodal costs, column by column.
+            delta: Largest change of row between neighbouring columns, in pixels.
+            link_weight: Link cost of one pixel of row change.
+        """
+        self._cost = cost
+        self.allowed = cost
+        """``(W, H)`` the costs, infinite where the brush forbids; a copy where it does."""
+        self.link_weight = link_weight
+        """Link cost of one pixel of row change."""
+        self.reach = np.full(max(len(cost) - 1, 0), delta, np.int32)
+        """``(W - 1,)`` largest change of row on each link."""
+        self.forward: F64 = np.empty(cost.shape)
+        """``(W, H)`` cost of the cheapest line from the left end of its run to each pixel."""
+        self.backward: F64 = np.empty(cost.shape)
+        """``(W, H)`` the same from the right end."""
+        self._painted: tuple[Stroke, ...] = ()  # what is forbidden in `allowed`
+        self._tabled: dict[bool, Plan | None] = {FORWARD: None, BACKWARD: None}
+        self._margins = np.full(len(cost), np.inf)
+        self._measured = np.zeros(len(cost), np.bool_)  # columns whose margins are right
+
+    def sweep_for(self, plan: Plan, *tables: bool) -> None:
+        """Bring `FORWARD`, `BACKWARD` or both up to date with a plan."""
+        self._paint(plan.strokes)
+        jobs = []
+        for forward in tables:
+            tabled = self._tabled[forward]
+            if plan == tabled:
+                continue
+            changed = painted_between(
+                tabled.strokes if tabled else (), plan.strokes, len(self._cost)
+            )
+            jobs += [
+                _POOL.submit(self._sweep, part, tabled, changed)
+                for part in plan.stale(tabled, changed)
+                if part.forward == forward
+            ]
+            self._tabled[forward] = plan
+        for job in jobs:
+            job.result()
+
+    def min_marginals(self, column: int) -> F64:
+        """``(H,)`` cost of the cheapest line through each pixel of a column, up to a constant."""
+        through = np.empty(self._cost.shape[1])
+        min_marginals(self.forward[column], self.backward[column], self.allowed[column], through)
+        return through
+
+    def measure(self, plan: Plan, most: int) -> int:
+        """Measure the margins of some columns of a plan, and return how many are left then.
+
+        Args:
+            plan: The plan.
+            most: How many columns at the most.
+        """
+        self.sweep_for(plan, FORWARD, BACKWARD)
+        waiting = plan.free & ~self._measured
+        for first, last in runs(waiting):
+            stop = min(last + 1, first + most)
+            _measure(self.allowed, self.forward, self.backward, first, stop, APART, self._margins)
+            self._measured[first:stop] = True
+            waiting[first:stop] = False
+            most -= stop - first
+            if most <= 0:
+                break
+        return int(np.count_nonzero(waiting))
+
+    def margins(self, plan: Plan) -> F64:
+        """``(W,)`` margin of each column of a plan; infinite where its row is fixed."""
+        self.measure(plan, len(self._cost))
+        return np.where(plan.free, self._margins, np.inf)
+
+    def _paint(self, strokes: tuple[Stroke, ...]) -> None:
+        """Forbid in the costs what strokes forbid, and nothing else."""
+        before, asked = self._painted, strokes
+        width, height = self._cost.shape
+        changed = painted_between(before, strokes, width)
+        if changed is None:
+            return
+        first, last = changed
+        if self.allowed is self._cost:
+            self.allowed = self._cost.copy()
+        part = slice(first, last + 1)
+        mask: Bool = np.zeros((width, height), np.bool_)
+        if strokes[: len(before)] == before:  # some were added: they are painted on what is there
+            mask[part] = self.allowed[part] != self._cost[part]
+            asked = strokes[len(before) :]
+        else:
+            asked = tuple(
+                one for one in strokes if one.columns[0] <= last and one.columns[1] >= first
+            )
+        self.allowed[part] = self._cost[part]
+        self.allowed[part][paint(asked, height, width, mask)[part]] = np.inf
+        self._painted = strokes
+
+    def _sweep(self, part: Stale, tabled: Plan | None, changed: tuple[int, int] | None) -> None:
+        """Fill a part of a table, as far as it changes.
+
+        Args:
+            part: The part.
+            tabled: The plan to which the table belonged.
+            changed: First and last column whose costs are other ones than then.
+        """
+        run = part.run
+        if part.forward:
+            table, step, fixed, row = self.forward, 1, run.left, run.left_row
+        else:
+            table, step, fixed, row = self.backward, -1, run.right, run.right_row
+        start = part.first - step
+        if start == fixed and row is None:
+            table[part.first] = self.allowed[part.first]
+            start = part.first
+        elif start == fixed:
+            table[start] = np.inf
+            table[start, row] = 0.0
+        goes_on = _same_from(part, tabled, changed)
+        while start != part.last:
+            stop = start + step * min(_STRIDE, abs(part.last - start))
+            known = goes_on is not None and step * stop >= step * goes_on
+            before = table[stop].copy() if known else None
+            sweep(self.allowed, self.reach, self.link_weight, table, start, stop)
+            start = stop
+            if before is not None and _differ_by_one_amount(before, table[stop]):
+                break
+        first, last = min(part.first, start), max(part.first, start)
+        self._measured[first : last + 1] = False
+
+
+def _same_from(part: Stale, tabled: Plan | None, changed: tuple[int, int] | None) -> int | None:
+    """The column from which on a part of a table was made of the same costs, without a break.
+
+    That is where the last of its old runs begins, past all changes of costs; None where the last
+    column was fixed.
+    """
+    old = tabled.run_at(part.last) if tabled else None
+    if old is None:
+        return None
+    if part.forward:
+        return max(old.left + 1, changed[1] if changed else old.left + 1)
+    return min(old.right - 1, changed[0] if changed else old.right - 1)
+
+
+def _differ_by_one_amount(before: F64, after: F64) -> bool:
+    """Whether two columns of a table are the same but for an amount, and where nothing leads."""
+    known = np.isfinite(after)
+    if not np.array_equal(known, np.isfinite(before)):
+        return False
+    change = after[known] - before[known]
+    return bool(change.size == 0 or np.ptp(change) <= _EQUAL * max(1.0, after[known].max()))
+
+
+@numba.njit(cache=True, nogil=True)
+def _measure(
+    columns: F32, forward: F64, backward: F64, first: int, stop: int, apart: int, margins: F64
+) -> None:
+    """Margins of the columns from `first` up to, not including, `stop`."""
+    through = np.empty(columns.shape[1])
+    for column in range(first, stop):
+        min_marginals(forward[column], backward[column], columns[column], through)
+        margins[column] = column_margin(through, apart)
