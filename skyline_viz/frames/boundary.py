@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 
 from skyline_viz.arrays import F32, F64, Int
@@ -56,12 +57,9 @@ def boundary(sky: F32, height: int, width: int) -> tuple[F32, F32]:
         ([100.0, 100.0, 100.0, 100.0, 100.0], 0.025)
     """
     borders = improbable(sky).astype(np.float32)
-    left, right, sideways = between_centres(width, len(borders))
-    here = borders[left]
-    across = here + sideways[:, None] * (borders[right] - here)
-    best = across.argmin(axis=1)
-    rows = (best * (height / len(sky))).astype(np.float32)
-    return rows, across[np.arange(width), best]
+    best, doubt = np.zeros(width, np.int32), np.empty(width, np.float32)
+    _least(borders, *between_centres(width, len(borders)), best, doubt)
+    return (best * (height / len(sky))).astype(np.float32), doubt
 
 
 def between_centres(length: int, regions: int) -> tuple[Int, Int, F32]:
@@ -80,3 +78,25 @@ def between_centres(length: int, regions: int) -> tuple[Int, Int, F32]:
     before = places.astype(np.int32)
     after = np.minimum(before + 1, regions - 1).astype(np.int32)
     return before, after, (places - before).astype(np.float32)
+
+
+@numba.njit(cache=True, nogil=True)
+def _least(borders: F32, left: Int, right: Int, sideways: F32, best: Int, least: F32) -> None:
+    """Find the first border of regions at which each column is the least improbable, and how much.
+
+    Args:
+        borders: ``(w, h + 1)`` see `improbable`.
+        left: ``(W,)`` see `between_centres`, as are `right` and `sideways`.
+        right: See `left`.
+        sideways: See `left`.
+        best: ``(W,)`` is filled with the borders.
+        least: ``(W,)`` is filled with what is improbable there.
+    """
+    for column in range(len(best)):
+        before, after, share = borders[left[column]], borders[right[column]], sideways[column]
+        lowest = np.float32(np.inf)
+        for border in range(borders.shape[1]):
+            here = before[border] + share * (after[border] - before[border])
+            if here < lowest:
+                best[column], lowest = border, here
+        least[column] = lowest

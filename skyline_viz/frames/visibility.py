@@ -22,11 +22,10 @@ The thresholds were chosen with whole sources left out, see ``docs/method.md``.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numba
 import numpy as np
-import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, Bool, Int, read_only, runs
 from skyline_viz.frames.frame import Frame
@@ -148,9 +147,10 @@ def visibility(
     over = np.maximum(rows - frame.top, 0) * shown
     under = np.maximum(height - frame.bottom - rows, 0) * shown
     # full of edges here, and as a whole: leaves in a corner are no reason to doubt the sky
-    here = _clear(*(_around(one, AROUND) for one in (above, over, below, under)))
-    whole = _clear(*(np.array([one.sum()]) for one in (above, over, below, under)))
-    clear = np.maximum(here, whole)
+    counts = np.array([above, over, below, under], np.float64)
+    around = np.empty_like(counts)
+    _sum_around(counts, int(len(rows) * AROUND / 2), around)
+    clear = np.maximum(_clear(*around), _clear(*counts.sum(axis=1, keepdims=True)))
     evidence = _evidence(sky, rows, on_edge, alone, height, RIM, AROUND)
     evidence *= clear.astype(np.float32)
     picture = evidence[shown]
@@ -174,25 +174,23 @@ def _missing(sky: F32) -> Case:
     return "no terrain" if sky.mean() > 0.5 else "no sky"
 
 
-def _clear(
-    above: npt.NDArray[Any],
-    over: npt.NDArray[Any],
-    below: npt.NDArray[Any],
-    under: npt.NDArray[Any],
-) -> F64:
+def _clear(above: F64, over: F64, below: F64, under: F64) -> F64:
     """How clear the sky is, in [0, 1], from edge pixels and all pixels, above and below a line."""
     above_share, below_share = above / np.maximum(over, 1), below / np.maximum(under, 1)
     return np.asarray(1 - above_share / (above_share + below_share + FEW_EDGES), np.float64)
 
 
-def _around(values: npt.NDArray[Any], around: float) -> F64:
-    """Sums ``(W,)`` over the columns around each one."""
-    half = int(len(values) * around / 2)
-    sums = np.concatenate([[0.0], np.cumsum(values, dtype=np.float64)])
-    columns = np.arange(len(values))
-    first, end = np.maximum(columns - half, 0), np.minimum(columns + half + 1, len(values))
-    found: F64 = sums[end] - sums[first]
-    return found
+@numba.njit(cache=True, nogil=True)
+def _sum_around(values: F64, half: int, sums: F64) -> None:
+    """Fill in the sums of rows of values over so many columns to each side, as far as there are."""
+    width = values.shape[1]
+    up_to = np.zeros(width + 1)
+    for row in range(len(values)):
+        for column in range(width):
+            up_to[column + 1] = up_to[column] + values[row, column]
+        for column in range(width):
+            first, end = max(column - half, 0), min(column + half + 1, width)
+            sums[row, column] = up_to[end] - up_to[first]
 
 
 @numba.njit(cache=True, nogil=True)
