@@ -183,7 +183,7 @@ class Detection:
 
     def uncertainty(self) -> Uncertainty:
         """How sure the path is: margins and detours. Takes two more path searches."""
-        return uncertainty(self.cost, self.forward, self.delta, self.link_weight)
+        return uncertainty(self.cost, self.delta, self.link_weight)
 
     def margins(self) -> F64:
         """How sure each column is, ``(W,)``: see `uncertainty.Uncertainty.margins`."""

@@ -4,14 +4,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+import skyline_viz.uncertainty as module
 from skyline_viz.constraints import PathError
-from skyline_viz.path import forward_costs, margins, path_tables, shortest_path
-from skyline_viz.uncertainty import uncertainty as uncertainty_of
-
-
-def uncertainty(cost, delta, link, apart=5):
-    return uncertainty_of(cost, forward_costs(cost, delta, link), delta, link, apart)
-
+from skyline_viz.path import margins, path_tables, shortest_path
+from skyline_viz.uncertainty import uncertainty
 
 COSTS = hnp.arrays(
     np.float64,
@@ -57,3 +53,15 @@ def test_the_arrays_are_frozen():
     found = uncertainty(np.zeros((3, 3)), 1, 0.0)
     with pytest.raises(ValueError, match="read-only"):
         found.margins[0] = 1
+
+
+@given(cost=COSTS, delta=st.integers(0, 3), kept=st.integers(1, 60))
+def test_forward_costs_that_are_kept_in_part_give_the_same(cost, delta, kept):
+    if not np.isfinite(cost.min(axis=0)).all():
+        return  # there is no path
+    whole = uncertainty(cost, delta, 0.1)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "KEPT", kept)
+        parts = uncertainty(cost, delta, 0.1)
+    np.testing.assert_array_equal(parts.margins, whole.margins)
+    np.testing.assert_array_equal(parts.detour, whole.detour)

@@ -7,7 +7,7 @@ import contextlib
 import ctypes
 import gc
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -67,12 +67,27 @@ def keep_freed() -> None:
     system clears every page anew, which takes a tenth of the time that a photo takes, and half of
     that of a large one. A program decides on that, not a library; elsewhere nothing is done.
     """
+    if allocator := _of_glibc("mallopt"):
+        for option, value in _KEPT.items():
+            allocator(option, value)
+
+
+def give_back() -> None:
+    """Give memory that this process has freed and kept back to the system, for other libraries.
+
+    Rerun has an allocator of its own, which cannot use it. Where glibc is not, nothing is done.
+    """
+    if trim := _of_glibc("malloc_trim"):
+        trim(0)
+
+
+def _of_glibc(name: str) -> Callable[..., int] | None:
+    """A function of glibc; None where there is another library of C."""
     try:
-        allocator = ctypes.CDLL(None).mallopt
-    except (OSError, TypeError, AttributeError):  # not Linux, or another library of C
-        return
-    for option, value in _KEPT.items():
-        allocator(option, value)
+        found: Callable[..., int] = getattr(ctypes.CDLL(None), name)
+    except (OSError, TypeError, AttributeError):
+        return None
+    return found
 
 
 @contextlib.contextmanager

@@ -31,7 +31,7 @@ from skyline_viz.files import replacing
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage import DETOUR, Quantity
 from skyline_viz.system.endings import held_back
-from skyline_viz.system.memory import FULL_MEGAPIXELS
+from skyline_viz.system.memory import FULL_MEGAPIXELS, give_back
 from skyline_viz.system.names import printable, recording_id, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_recording import log_filter_bank
@@ -173,6 +173,7 @@ def _near(
     if height * width <= FULL_MEGAPIXELS * 1e6:
         return None
     near = Near.to((height, width), detection.skyline, truth)
+    give_back()  # what finding the line took, and Rerun is to have
     recording.log(at(entities.EXACT), encoded_edges(near.mask))
     return near
 
