@@ -1,5 +1,6 @@
 """What surrounds a detection: reading, writing, and whole commands, in processor time."""
 
+import os
 import resource
 import shutil
 import statistics
@@ -134,8 +135,9 @@ def _copied(items: Sequence[DatasetItem], folder: Path, to: Path) -> Path:
 
 
 def _processor_seconds(words: list[str]) -> float:
-    """Processor time of a Python process and of those that it starts."""
+    """Processor time of a Python process and of those that it starts, which may keep bytecode."""
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([sys.executable, *words], check=True, capture_output=True)
+    subprocess.run([sys.executable, *words], check=True, capture_output=True, env=kept)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
