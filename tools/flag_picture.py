@@ -18,7 +18,7 @@ from testing.programs.browser import chromium
 
 SAID = {
     "hazy-2": Change(True, "the far ridge is hardly to be seen"),
-    "foreground-3": Change(True, "snow against cloud: the line is the forest's"),
+    "foreground-3": Change(True, "a dip in the snow is bridged, cloud behind it"),
     "spires-5": Change(comment="towers cut off; ask for a larger delta"),
 }
 
