@@ -30,6 +30,7 @@ from skyline_viz.config import DetectorConfig
 from skyline_viz.edges import edge_pixels
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.kernels.nodal import Own, nodal_costs
+from skyline_viz.kernels.percentiles import upper_percentile
 from skyline_viz.terms import (
     ClearSky,
     EdgeTerm,
@@ -41,8 +42,6 @@ from skyline_viz.terms import (
     Sky,
     Term,
 )
-
-_SAMPLED = 64  # one value in so many says where the larger ones begin
 
 UNKNOWN = np.full((1, 1), 0.5, np.float32)
 """The map of a sky model that was not asked: one region, of which nothing is known."""
@@ -314,25 +313,5 @@ def normalised(strength: F32, percentile: float) -> F32:
     """Gradient strength ``(n,)`` in [0, 1]; 1 is the given percentile of this photo's edges."""
     if len(strength) == 0:
         return strength
-    top = _percentile(strength, percentile)
+    top = upper_percentile(strength, percentile)
     return np.clip(strength, 0.0, top) / top if top > 0 else np.zeros_like(strength)
-
-
-def _percentile(values: F32, percentile: float) -> np.float32:
-    """``np.percentile`` of values ``(n,)``, of which most are left out of the search.
-
-    A sample tells below which value no more is to be looked for. Where it was wrong all are asked.
-    """
-    place = (len(values) - 1) * (percentile / 100)
-    sample = values[::_SAMPLED]
-    bound = np.partition(sample, at := int((len(sample) - 1) * 0.95 * percentile / 100))[at]
-    tail = values[values >= bound]
-    left_out = len(values) - len(tail)
-    first = int(place)
-    if first < left_out:
-        return np.float32(np.percentile(values, percentile))
-    last = min(first + 1, len(values) - 1)
-    both = first - left_out, last - left_out
-    lower, upper = np.partition(tail, both)[list(both)]
-    share, step = place - first, upper - lower
-    return np.float32(upper - step * (1 - share) if share >= 0.5 else lower + step * share)

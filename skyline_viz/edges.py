@@ -18,6 +18,7 @@ from skyline_viz.frames.boundary import boundary
 from skyline_viz.frames.finding import find_frame
 from skyline_viz.frames.frame import Frame
 from skyline_viz.kernels.canny import canny
+from skyline_viz.kernels.percentiles import percentiles_of_counts
 from skyline_viz.kernels.planes import padded_planes
 from skyline_viz.kernels.sobel import sobel
 
@@ -186,8 +187,9 @@ def fitted_thresholds(across: I16, down: I16, low: float, high: float) -> tuple[
         (15.0, 66.0)
     """
     every = (slice(None, None, -GRADIENT_STEP), slice(None, None, GRADIENT_STEP))
-    gradients = np.abs(across[every].astype(np.int32)) + np.abs(down[every])
-    weak, strong = np.percentile(gradients, (NOISE_PERCENTILE, STRONG_PERCENTILE))
+    gradients = np.abs(across[every]) + np.abs(down[every])
+    both = NOISE_PERCENTILE, STRONG_PERCENTILE
+    weak, strong = percentiles_of_counts(gradients.ravel(), both)
     wanted = max(STRONG_SHARE * strong, NOISE_MULTIPLE * weak) / (high or 1.0)
     factor = float(min(max(wanted, LOWEST_FACTOR), 1.0))
     return low * factor, high * factor

@@ -21,8 +21,10 @@ def run(
     """Run a command of ours, none of whose files may hold more than so many bytes."""
     code = LIMITED.format(program=program, most=most)
     command = [sys.executable, "-c", code, *map(str, words)]
+    # Python would keep the bytecode of a module as far as the limit goes, and trip over it later
+    env = {**uncovered(), "PYTHONDONTWRITEBYTECODE": "1"}
     return subprocess.run(
-        command, stdout=stdout, stderr=subprocess.PIPE, text=True, check=False, env=uncovered()
+        command, stdout=stdout, stderr=subprocess.PIPE, text=True, check=False, env=env
     )
 
 
