@@ -78,7 +78,7 @@ def _parts(
         parts["robustness"] = lambda: robustness.varied(web, sky) + _sky_told(unseen)
         parts["filters"] = lambda: filters.studies(data, sky)
         parts["methods"] = lambda: methods.compared(web, sky) + _sky_told(unseen)
-        parts["visibility"] = lambda: visibility.denied([web, *others])
+        parts["visibility"] = lambda: visibility.denied([web, *others], Models(models))
         parts["labelling"] = lambda: labelling.measured(web, data, sky)
     parts["samples"] = lambda: accuracy.rendered(SAMPLES)
     parts["speed"] = lambda: speed.measured(web, SAMPLES)

@@ -12,7 +12,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from benchmarks import around
+from benchmarks import around, one_thread
 from benchmarks.table import markdown
 from skyline_viz import Detector, open_dataset, read_photo, train, write_photo
 from skyline_viz.arrays import U8
@@ -39,10 +39,12 @@ def measured(web: Path | None, samples: Path) -> str:
     items = list(open_dataset(folder))
     photos = [item.photo() for item in items]
     parts = [f"## Speed, on {len(photos)} photographs of `{folder.name}`", _ratios(photos)]
+    large = find_photos(web.parent / "new_dataset") if web and web.is_dir() else []
+    pictures = [read_photo(path) for path in large]
+    parts.append(one_thread.measured(photos, pictures))
     parts.append(_sky(photos))
     parts.append(around.measured(folder))
-    large = find_photos(web.parent / "new_dataset") if web and web.is_dir() else []
-    parts.append(_growth(photos, [read_photo(path) for path in large]))
+    parts.append(_growth(photos, pictures))
     with tempfile.TemporaryDirectory() as scratch:
         one = Path(scratch) / "photo.bmp"
         write_photo(one, photos[0])

@@ -18,7 +18,7 @@ from skyline_viz.detection import FilterDetection, timed
 from skyline_viz.edges import candidate_edges, edge_pixels, edge_settings, frame_of, to_grey
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
-from skyline_viz.frames.frame import Frame, without_frame
+from skyline_viz.frames.frame import Frame, around_frame
 from skyline_viz.frames.visibility import visibility
 from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
@@ -365,7 +365,8 @@ class Detector:
         if found and same and found.sky is not None:
             return found.sky
         with timed(seconds, "sky"):
-            return self.sky.sky(without_frame(photo, frame))
+            inside = np.ascontiguousarray(photo[frame.inside(photo)])
+            return around_frame(self.sky.sky(inside), frame, *photo.shape[:2])
 
 
 def _edges_alike(config: DetectorConfig, sky: F32 | None, found: FilterDetection) -> bool:

@@ -23,7 +23,6 @@ FORWARD, BACKWARD = True, False
 
 _POOL = ThreadPoolExecutor(2, "sweep")
 _STRIDE = 64  # columns that are swept before it is looked at whether more of them change
-_EQUAL = 1e-9  # costs that differ by less are equal: they are sums of some thousand float32
 
 
 class Tables:
@@ -40,8 +39,9 @@ class Tables:
         self._cost = cost
         self.allowed = cost
         """``(W, H)`` the costs, infinite where the brush forbids; a copy where it does."""
-        self.link_weight = link_weight
-        """Link cost of one pixel of row change."""
+        self.link_weight = float(np.float32(link_weight))
+        """Link cost of one pixel of row change, in float32 as nodal costs are: sums of some thousand
+        such numbers are exact in float64, so that tables do not depend on how they came about."""
         self.reach = np.full(max(len(cost) - 1, 0), delta, np.int32)
         """``(W - 1,)`` largest change of row on each link."""
         self.forward: F64 = np.empty(cost.shape)
@@ -179,7 +179,7 @@ def _differ_by_one_amount(before: F64, after: F64) -> bool:
     if not np.array_equal(known, np.isfinite(before)):
         return False
     change = after[known] - before[known]
-    return bool(change.size == 0 or np.ptp(change) <= _EQUAL * max(1.0, after[known].max()))
+    return bool(change.size == 0 or (change == change[0]).all())
 
 
 @numba.njit(cache=True, nogil=True)

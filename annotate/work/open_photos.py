@@ -24,10 +24,10 @@ SESSION = 27
 """Bytes a pixel of an open photo: its pixels (3), nodal costs (4) and those without what the brush
 forbids (4), and the two tables of the live wire (8 each)."""
 
-KEPT = 28
+KEPT = 17
 """Bytes a pixel that a detection which is kept with its open photo is counted as until it is there:
-edges (1), costs (4), the forward table (8), and what is known of its edge pixels, 32 each: on noise
-every third pixel is one."""
+edges (1), costs (4), and what is known of its edge pixels, 32 each: on noise every third pixel is
+one."""
 
 BLIND = 3
 """Bytes a pixel of an open photo that is labelled blind: its pixels."""

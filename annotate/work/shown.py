@@ -32,9 +32,9 @@ class NoPictureError(LookupError):
 class Pictures:
     """Pictures of photos. Its methods may be called from several threads.
 
-    Those of an open photo are known by the pixels that are open, those of a closed one by the
-    content of its file: where that has changed, it is read again, and refused if it is another
-    photo.
+    Those of an open photo are known by the pixels that are open, those of a closed one by the photo
+    and the content of its file: where that has changed, it is read again, and refused if it is
+    another photo.
     """
 
     def __init__(self, bench: Workbench, kept: KeptPictures | None = None) -> None:
@@ -88,7 +88,7 @@ class Pictures:
         def make() -> Picture:
             return self._of_file(one) or images.thumbnail(read_whole(self._bench.store, one))
 
-        return self._get((self._file(one), "thumbnail"), make)
+        return self._get((self._file(one), photo, "thumbnail"), make)
 
     def strip(self, photo: int, width: int) -> Picture:
         """The band around a photo's line, straightened.
@@ -102,9 +102,9 @@ class Pictures:
             session = bench.session(photo)
             with session.lock:
                 skyline = session.wire.skyline
-            return self._strip(session.content, skyline, width, lambda: session.pixels)
+            return self._strip((session.content, photo), skyline, width, lambda: session.pixels)
         one = bench.photo(photo)
-        whole = self._file(one)
+        whole = self._file(one), photo  # the file of another photo may have taken its place
         return self._strip(whole, line.skyline, width, lambda: read_whole(bench.store, one))
 
     def _strip(

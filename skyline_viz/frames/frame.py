@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 import cv2
 import numpy as np
 
-from skyline_viz.arrays import U8, Bool
+from skyline_viz.arrays import F32, U8, Bool
 
 Side: TypeAlias = Literal["left", "right", "top", "bottom"]
 """A rim of a picture."""
@@ -18,6 +18,10 @@ SIDES: tuple[Side, ...] = ("left", "right", "top", "bottom")
 
 ACROSS: dict[Side, Side] = {"left": "right", "right": "left", "top": "bottom", "bottom": "top"}
 """The rim across."""
+
+MOST_REGIONS = 4
+"""The map of a photo has at most so many times as many regions along an axis as that of the picture
+inside its frame."""
 
 
 @dataclass(frozen=True)
@@ -68,3 +72,41 @@ def without_frame(photo: U8, frame: Frame) -> U8:
         inside, frame.top, frame.bottom, frame.left, frame.right, cv2.BORDER_REPLICATE
     )
     return np.asarray(painted, np.uint8)
+
+
+def around_frame(inside: F32, frame: Frame, height: int, width: int) -> F32:
+    """A map of the picture as one of its photo: at the frame it goes on as at its rim.
+
+    Args:
+        inside: ``(h, w)`` value of each region of the picture.
+        frame: The frame.
+        height: Rows of the photo, of which the map has as many more as the photo has more than the
+            picture, up to `MOST_REGIONS` times as many.
+        width: Its columns, likewise.
+
+    Returns:
+        ``(k, l)`` value of each region of the photo.
+
+    >>> around_frame(np.float32([[1], [0]]), Frame(top=4), 8, 3)[:, 0].tolist()
+    [1.0, 1.0, 1.0, 0.0]
+    """
+    if frame == Frame():
+        return inside
+    places = [
+        _places(regions, before, after, length)
+        for regions, before, after, length in (
+            (inside.shape[0], frame.top, frame.bottom, height),
+            (inside.shape[1], frame.left, frame.right, width),
+        )
+    ]
+    across, down = np.meshgrid(places[1], places[0])
+    return np.asarray(cv2.remap(inside, across, down, cv2.INTER_LINEAR), np.float32)
+
+
+def _places(regions: int, before: int, after: int, length: int) -> F32:
+    """Where in the map of a picture the middles of the regions of its photo lie, along an axis."""
+    scale = regions / (length - before - after)
+    count = min(round(length * scale), MOST_REGIONS * regions)
+    middles = (np.arange(count) + 0.5) * (length / count)
+    places: F32 = np.clip((middles - before) * scale - 0.5, 0, regions - 1).astype(np.float32)
+    return places

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skyline_viz.frames.frame import ACROSS, SIDES, Frame, without_frame
+from skyline_viz.frames.frame import ACROSS, SIDES, Frame, around_frame, without_frame
 from testing.examples import examples
 from testing.scenes import framed, noise
 
@@ -52,3 +52,19 @@ def test_one_side_is_widened(side):
         name: 10 * (name == side) for name in SIDES
     }
     assert ACROSS[ACROSS[side]] == side != ACROSS[side]
+
+
+@examples(60)
+@given(WIDTHS, WIDTHS, WIDTHS, WIDTHS)
+def test_a_map_of_the_picture_goes_on_around_it(left, right, top, bottom):
+    inside = noise(12, 15)[..., 0].astype(np.float32)  # a region is a pixel
+    frame = Frame(left=left, right=right, top=top, bottom=bottom)
+    found = around_frame(inside, frame, 12 + top + bottom, 15 + left + right)
+    expected = np.pad(inside, ((top, bottom), (left, right)), mode="edge")
+    np.testing.assert_allclose(found, expected, atol=1e-2)
+
+
+def test_a_map_in_a_huge_frame_stays_small():
+    found = around_frame(np.ones((8, 6), np.float32), Frame(top=900, left=700), 940, 730)
+    assert found.shape == (32, 24)
+    assert (found == 1).all()

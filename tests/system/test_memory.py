@@ -142,7 +142,7 @@ def test_the_next_photo_is_opened_only_where_it_fits(tmp_path, monkeypatch):
 def test_a_detection_is_kept_only_where_it_fits_and_goes_with_its_photo(tmp_path, monkeypatch):
     one = 48 * 70 * SESSION
     write_hills(tmp_path, count=2)
-    for budget, kept in ((int(1.2 * one), False), (4 * one, True)):
+    for budget, kept in ((int(1.2 * one), False), (3 * one, True)):
         monkeypatch.setattr(benches, "OpenPhotos", lambda budget=budget: OpenPhotos(budget))
         bench = workbench(tmp_path)
         try:

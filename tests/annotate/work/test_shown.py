@@ -124,3 +124,20 @@ def test_a_photo_over_the_limit_has_no_thumbnail(bench, monkeypatch):
     monkeypatch.setattr("skyline_viz.system.memory._Limit.megapixels", 0.001)
     with pytest.raises(PhotoError, match=r"over the limit of 0\.001 megapixels"):
         Pictures(bench).thumbnail(1)
+
+
+@pytest.mark.parametrize("kind", ["thumbnail", "strip"])
+def test_the_file_of_another_photo_in_its_place_is_refused_though_its_picture_is_kept(folder, kind):
+    write_photo(folder / "two.jpg", hills(2))
+    bench = workbench(folder)
+    pictures = Pictures(bench)
+    show = {"thumbnail": pictures.thumbnail, "strip": lambda photo: pictures.strip(photo, 64)}[kind]
+    for photo in (1, 2):
+        session = bench.session(photo)
+        session.apply(SetAnchor(column=30, row=40), -1)
+        bench.close_photo(photo)
+        show(photo)
+    shutil.copy(folder / "one.jpg", folder / "two.jpg")
+    with pytest.raises(PhotoError, match="another photo"):
+        show(2)
+    bench.close()
