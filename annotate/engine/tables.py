@@ -40,8 +40,8 @@ class Tables:
         self.allowed = cost
         """``(W, H)`` the costs, infinite where the brush forbids; a copy where it does."""
         self.link_weight = float(np.float32(link_weight))
-        """Link cost of one pixel of row change, in float32 as nodal costs are: sums of some thousand
-        such numbers are exact in float64, so that tables do not depend on how they came about."""
+        """Link cost of one pixel of row change, a float32 as nodal costs are: sums of some thousand
+        are exact in float64, so that tables do not depend on how they came about."""
         self.reach = np.full(max(len(cost) - 1, 0), delta, np.int32)
         """``(W - 1,)`` largest change of row on each link."""
         self.forward: F64 = np.empty(cost.shape)

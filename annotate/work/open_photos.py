@@ -121,11 +121,16 @@ class OpenPhotos(Generic[Value]):
                 future, counted = self._photos[photo]
                 self._photos[photo] = future, min(size, counted)
 
-    def show(self, photo: int) -> None:
-        """From now on this photo is the one that stays, and the one before may be closed."""
+    def show(self, photo: int) -> bool:
+        """From now on this photo is the one that stays, and the one before may be closed.
+
+        Returns:
+            Whether it is another one than before.
+        """
         with self._lock:
-            self._shown = photo
+            another, self._shown = photo != self._shown, photo
             self._make_room(photo)
+            return another
 
     def keeps(self, photo: Photo) -> bool:
         """Whether a photo keeps its detection while it is shown or next: both have to fit."""

@@ -187,8 +187,8 @@ class Workbench:
             if self._detection and self._detection[0] != photo:
                 self._detection = None
                 self._open.drop_beside()
-            self._open.show(photo)
-            self._let_go_of_detections(photo)
+            if self._open.show(photo):  # else it was asked for again, and the next one is ready
+                self._let_go_of_detections(photo)
 
         def work() -> None:
             cards = self.cards()

@@ -61,7 +61,8 @@ class Demo:
             except ViewerError as error:
                 say(f"no picture of the gallery was drawn: {error}")
             shown = " ".join(map(str, self.photos or [self._samples()]))
-            tell(f"There is no display here. skyline-viz gallery {shown} --out {self.out} --serve")
+            serve = f"skyline-viz gallery {shown} --out {self.out} --serve"
+            tell(f"There is no display here. This serves the gallery to a browser: {serve}")
         return status_after(failures)
 
     def _samples(self) -> Path:

@@ -52,3 +52,16 @@ def test_a_method_that_refuses_small_photos_lets_the_page_begin(folder):
     bench = workbench(folder, detector=Large())
     assert bench.overlays() == ("edges", "score", "cost")
     bench.close()
+
+
+def test_a_photo_that_is_asked_for_again_leaves_the_next_one_its_detection(tmp_path):
+    bench = workbench(write_hills(tmp_path, count=3, height=200, width=300))
+    try:
+        for _ in range(2):
+            bench.session(1)
+            bench.prepare_after(1)
+            bench._ahead.submit(lambda: None).result()
+        assert bench.session(2).wire.detection is not None
+        assert bench.session(1).wire.detection is not None
+    finally:
+        bench.close()
