@@ -187,11 +187,19 @@ class Skyline:
         check_photo(painted)
         colours = PAINTS.values() if paint is None else [PAINTS[paint]]
         found = [in_colour(painted, colour) for colour in colours]
-        hits = max(found, key=lambda pixels: int(pixels.any(axis=0).sum()))
-        visible = column_counts(hits) > 0
+        return cls.along_top(max(found, key=lambda pixels: int(pixels.any(axis=0).sum())))
+
+    @classmethod
+    def along_top(cls, painted: Bool) -> "Skyline":
+        """Skyline along the topmost painted pixels of a mask ``(H, W)``, see `from_painted`.
+
+        Raises:
+            SkylineError: No pixel is painted.
+        """
+        visible = column_counts(painted) > 0
         if not visible.any():
             raise SkylineError("no pixel is painted in pure red or pure blue")
-        return cls(rows=fill(hits.argmax(axis=0), visible), visible=visible)
+        return cls(rows=fill(painted.argmax(axis=0), visible), visible=visible)
 
     def write_csv(self, path: str | os.PathLike[str]) -> None:
         """Write ``column,row,visible``, a line a column; `visible` is 1 or 0."""

@@ -55,7 +55,7 @@ def painted_line(picture: LabelPicture) -> Line | None:
             keys = _keys(colours) if keys is None else keys
             if _is_bare(keys, hits) and not _is_border(keys, hits):
                 continue
-        lines[paint] = Skyline.from_painted(colours, paint), hits
+        lines[paint] = Skyline.along_top(hits), hits
     if not lines:
         return None
     if len(lines) == 2 and not _agree(lines["red"][0], lines["blue"][0]):

@@ -18,6 +18,7 @@ from testing import label_files as made
 from testing.datasets import PHOTO, ROWS, WIDTH, only, put
 from testing.examples import examples
 from testing.label_files import said_about
+from testing.scenes import noise
 
 FEW = examples(40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
@@ -162,3 +163,11 @@ def test_paint_is_far_that_is_far_from_the_median_around_it(rows):
     where = f"paint far from the rest of the line, in {spans_of(far)}" if len(far) else ""
     assert "".join(notes).startswith(where)
     assert bool(notes) == bool(len(far))
+
+
+def test_paint_that_is_transparent_is_none(tmp_path):
+    pixels = np.dstack([noise(60, 48), np.full((60, 48), 255, np.uint8)])
+    pixels[40, :] = (255, 0, 0, 255)
+    pixels[10, ::2] = (255, 0, 0, 0)
+    Image.fromarray(pixels, "RGBA").save(tmp_path / "line.png")
+    assert read_truth(tmp_path / "line.png") == Skyline([40] * 48)
