@@ -12,7 +12,16 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import F32, U8, Bool, check_photo, column_counts, in_colour, read_only
+from skyline_viz.arrays import (
+    F32,
+    U8,
+    Bool,
+    check_photo,
+    column_counts,
+    in_colour,
+    in_colours,
+    read_only,
+)
 from skyline_viz.files import write_text
 
 Paint = Literal["red", "blue"]
@@ -186,7 +195,7 @@ class Skyline:
         """
         check_photo(painted)
         colours = PAINTS.values() if paint is None else [PAINTS[paint]]
-        found = [in_colour(painted, colour) for colour in colours]
+        found = in_colours(painted, colours)
         return cls.along_top(max(found, key=lambda pixels: int(pixels.any(axis=0).sum())))
 
     @classmethod

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import U8, Bool, column_counts, in_colour
+from skyline_viz.arrays import U8, Bool, column_counts, in_colours
 from skyline_viz.datasets.label_picture import LabelPicture
 from skyline_viz.datasets.sky_region import Line, spans_of
 from skyline_viz.skyline import PAINTS, Paint, Skyline, SkylineError
@@ -45,10 +45,8 @@ def painted_line(picture: LabelPicture) -> Line | None:
     colours = picture.colours
     lines: dict[Paint, tuple[Skyline, Bool]] = {}
     keys: npt.NDArray[np.int32] | None = None
-    for paint, colour in PAINTS.items():
-        hits = in_colour(colours, colour)
-        if picture.opaque is not None:
-            hits &= picture.opaque
+    for paint, found in zip(PAINTS, in_colours(colours, PAINTS.values()), strict=True):
+        hits = found if picture.opaque is None else found & picture.opaque
         if not _is_line(hits):
             continue
         if _may_be_bare(colours, hits):
