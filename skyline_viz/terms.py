@@ -131,7 +131,7 @@ class NoEdge(Term):
 
     def add(self, cost: F32) -> None:
         """See `Term.add`."""
-        cost[~self.edges] += np.float32(self.weight)
+        np.add(cost, np.float32(self.weight), out=cost, where=~self.edges)
 
     def at(self, rows: Places, columns: Places) -> F64:
         """See `Term.at`."""

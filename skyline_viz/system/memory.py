@@ -36,9 +36,15 @@ SHARE = 0.8
 MAX_MEGAPIXELS = 150.0
 """Limit on a photo's size, in million pixels, unless this process has another one."""
 
-_KEPT = {-1: 256_000_000, -3: 64_000_000}
+_TRIM, _LARGEST = -1, -3
 """Options of glibc's allocator: free bytes at the end of its heap from which on they go back to the
 system, and bytes of an array that is no part of that heap."""
+
+_KEPT = {_TRIM: 256_000_000, _LARGEST: 64_000_000}
+"""What they are where memory is kept."""
+
+_ARRAY = 1_000_000
+"""Bytes of arrays that are no part of the heap where it is not."""
 
 _MEMINFO = Path("/proc/meminfo")
 _GROUP = Path("/sys/fs/cgroup")
@@ -73,11 +79,14 @@ def keep_freed() -> None:
 
 
 def give_back() -> None:
-    """Give memory that this process has freed and kept back to the system, for other libraries.
+    """Give memory that this process has freed back to the system, and keep no arrays from now on.
 
-    Rerun has an allocator of its own, which cannot use it. Where glibc is not, nothing is done.
+    Rerun has an allocator of its own, which cannot use what is kept here. Where glibc is not,
+    nothing is done.
     """
-    if trim := _of_glibc("malloc_trim"):
+    allocator, trim = _of_glibc("mallopt"), _of_glibc("malloc_trim")
+    if allocator and trim:
+        allocator(_LARGEST, _ARRAY)
         trim(0)
 
 

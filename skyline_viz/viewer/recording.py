@@ -130,6 +130,8 @@ def log_detection(
     if near and shown is not None:
         shown |= near.mask[detection.edge_rows, detection.edge_columns]
     recording.log(at(entities.PHOTO), _encoded(photo, fidelity))
+    if near:
+        recording.flush()  # a large photo is not to wait for maps as large
     count = log_maps(recording, at, detection, shown, near)
     unsure = detection.uncertainty()  # while the maps above are being compressed
     verdict = Verdict.of(detection.skyline, unsure.margins, height, truth)

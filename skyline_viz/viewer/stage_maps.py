@@ -65,10 +65,12 @@ def log_maps(
         if stage.where == "mask":
             recording.log(entity, encoded_edges(np.asarray(stage.values, np.bool_)))
         elif near and (stage.where == "photo" or stage.dense):
-            near.log(recording, entity, stage.quantity, near.sample(_sampler(stage)))
-            if not stage.quantity.smooth:
+            quantity, sampled = stage.quantity, near.sample(_sampler(stage))
+            if not quantity.smooth:
                 values = stage.values if stage.where == "edges" else stage.values[rows, columns]
                 table[name] = values[kept] if stage.where == "edges" else values
+            del stage
+            near.log(recording, entity, quantity, sampled)
         elif stage.where == "photo" and stage.quantity.smooth:  # whole even if lean
             levels = FINE if shown is None else BANDS
             dense_map(stage.quantity, stage.values, levels).log(recording, entity)
@@ -132,6 +134,7 @@ def log_terms(
             for some in (sampled.blocks, sampled.exact):
                 some[some == 0] = np.nan
             near.map(quantity, sampled, COARSE).log(recording, entity)
+            recording.flush()
             continue
         paid = term.map()
         paid[paid == 0] = np.nan

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import pyarrow as pa
 import rerun as rr
 
 from skyline_viz.arrays import Int
@@ -56,8 +57,27 @@ class ValueMap:
         recording.log(
             entity,
             _legend(self.quantity, self.low, self.high, self.levels),
-            rr.SegmentationImage(self.classes, opacity=1.0),
+            _image(self.classes),
         )
+
+
+def _image(classes: npt.NDArray[np.unsignedinteger[Any]]) -> rr.SegmentationImage:
+    """Classes ``(H, W)`` as Rerun takes them, without the two copies that it makes of an array.
+
+    They must not change before the recording has been flushed.
+    """
+    flat = np.ascontiguousarray(classes).reshape(-1).view(np.uint8)
+    inner = pa.Array.from_buffers(pa.uint8(), flat.size, [None, pa.py_buffer(flat)])
+    kind = pa.list_(pa.field("item", pa.uint8(), nullable=False))
+    return rr.SegmentationImage.from_fields(
+        buffer=pa.ListArray.from_arrays(pa.array([0, flat.size], pa.int32()), inner, type=kind),
+        format=rr.components.ImageFormat(
+            width=classes.shape[1],
+            height=classes.shape[0],
+            channel_datatype=rr.ChannelDatatype.from_np_dtype(classes.dtype),
+        ),
+        opacity=1.0,
+    )
 
 
 def sparse_map(
