@@ -39,7 +39,7 @@ def cheapest(columns: F32, reach: int, link_weight: float) -> tuple[Int, float]:
         link_weight: Cost of one pixel of row change.
 
     Examples:
-        >>> columns = np.array([[1, 2, 2], [2, 2, 1], [2, 2, 1]], np.float32)
+        >>> columns = np.array([[1, 2, 3], [2, 2, 1], [2, 2, 1]], np.float32)
         >>> cheapest(columns, 1, 0.5)
         (array([1, 2, 2], dtype=int32), 4.5)
         >>> cheapest(columns, 2, 0.5)
