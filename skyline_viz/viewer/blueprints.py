@@ -4,7 +4,8 @@
 - *Stages*: the paper's figure 1 and the sky, (a) to (g).
 - *Tensor*: what picks the filter.
 - *Terms*: what each pixel pays for each term of the nodal cost.
-- *Filter bank*: the filters, and which of them the path used.
+- *Pixel*: one pixel of the path and one of the truth, all the way down.
+- *Filter bank*: the filters, and which of them the chosen pixels use.
 - *Columns*: error, margin and costs along the columns.
 - *Diagnosis*: why it went wrong, where it did.
 - *Sweep*: how the path changes with a setting.
@@ -23,7 +24,7 @@ from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents, MethodContents
 from skyline_viz.viewer.entities import below
 
-TABS = ("Skyline", "Stages", "Tensor", "Terms", "Filter bank", "Columns")
+TABS = ("Skyline", "Stages", "Tensor", "Terms", "Pixel", "Filter bank", "Columns")
 """The tabs of a recording of one photo with a full detection."""
 
 _BLACK = (12, 12, 12)
@@ -42,6 +43,7 @@ def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blue
         _stages_tab(contents, _lettered(contents.stages), "Stages"),
         *_own_tab(contents, contents.stages, "Tensor"),
         *_own_tab(contents, contents.terms, "Terms"),
+        *([_pixel_tab(contents)] if contents.columns else []),
         *([_bank_tab(contents)] if contents.bank else []),
         _columns_tab(contents),
         *([_diagnosis_tab(contents)] if contents.diagnosed else []),
@@ -78,7 +80,7 @@ def _first_tab(contents: Contents) -> rrb.Container:
         "Where is the line? magenta: path"
         + (", turquoise: truth" if contents.truth else "")
         + (f", yellow: {contents.compared}" if contents.compared else ""),
-        [entities.PHOTO, *_with_halos(), entities.STRIP, entities.CHOSEN],
+        [entities.PHOTO, *_with_halos(), entities.STRIP, f"{entities.CHOSEN}/**"],
     )
     plot = _errors() if contents.truth else _plot(entities.MARGINS, "Margin (cost)")
     report = rrb.TextDocumentView(origin=entities.REPORT, name="Report")
@@ -122,26 +124,47 @@ def _own_tab(contents: Contents, quantities: Sequence[Quantity], name: str) -> l
 def _bank_tab(contents: Contents) -> rrb.Container:
     filters = rrb.Spatial2DView(
         origin="bank",
-        contents=[f"+ /{entities.BANK_FILTERS}/**", f"+ /{entities.BANK_CHOSEN}"],
+        contents=[f"+ /{entities.BANK_FILTERS}/**", f"+ /{entities.BANK_CHOSEN}/**"],
         name="Filters: blue negative, red positive taps",
         background=_BLACK,
     )
     samples = rrb.Spatial2DView(
         origin="bank",
-        contents=[f"+ /{entities.BANK_SAMPLES}/**", f"+ /{entities.BANK_CHOSEN}"],
+        contents=[f"+ /{entities.BANK_SAMPLES}/**", f"+ /{entities.BANK_CHOSEN}/**"],
         name="Training samples in each bin",
         background=_BLACK,
     )
     pictures = rrb.Horizontal(filters, samples)
-    if not contents.path_bins:
+    if not contents.columns:
         return rrb.Horizontal(filters, samples, name="Filter bank")
-    photo = _photo_view(
-        "The chosen pixel of the path: scrub the column timeline",
-        [entities.PHOTO, *_with_halos([entities.PATH]), entities.CHOSEN],
+    photo = _chosen_view(contents)
+    return rrb.Vertical(pictures, photo, row_shares=[3, 1], name="Filter bank")
+
+
+def _chosen_view(contents: Contents) -> rrb.View:
+    """The photo with the chosen pixels."""
+    others = ", turquoise: of the truth" if contents.truth else ""
+    return _photo_view(
+        f"Magenta: pixel of the path{others}. Scrub the column timeline",
+        [entities.PHOTO, *_with_halos([entities.PATH, entities.TRUTH, entities.CHOSEN])],
     )
-    about = rrb.TextDocumentView(origin=entities.BANK_USED, name="The filter it used")
-    foot = rrb.Horizontal(photo, about, column_shares=[3, 2])
-    return rrb.Vertical(pictures, foot, row_shares=[3, 1], name="Filter bank")
+
+
+def _pixel_tab(contents: Contents) -> rrb.Container:
+    about = rrb.TextDocumentView(origin=entities.PIXEL_ABOUT, name="What it pays, and why")
+    head = rrb.Horizontal(_chosen_view(contents), about, column_shares=[3, 2])
+    if not contents.bank:
+        return rrb.Vertical(head, name="Pixel")
+    views = []
+    for line in ("path", *(["truth"] if contents.truth else [])):
+        parent = entities.pixel_of(line)
+        for title, shown in {
+            "grey, tensor": [f"{parent}/patch", f"{parent}/ellipse"],
+            "filter": [f"{parent}/filter"],
+            "product": [f"{parent}/product"],
+        }.items():
+            views.append(_photo_view(f"{line.capitalize()}: {title}", shown))
+    return rrb.Vertical(head, rrb.Horizontal(*views), row_shares=[5, 3], name="Pixel")
 
 
 def _columns_tab(contents: Contents) -> rrb.Container:
@@ -309,7 +332,7 @@ def _with_panels(tabs: list[rrb.Container], contents: Contents, active: str) -> 
         time = rrb.TimePanel(state="collapsed", timeline=entities.IMAGE, play_state="paused")
     elif contents.swept:
         time = rrb.TimePanel(state="collapsed", timeline=contents.swept, play_state="paused")
-    elif contents.path_bins:
+    elif contents.columns:
         time = rrb.TimePanel(state="collapsed", timeline=entities.COLUMN, play_state="paused")
     return rrb.Blueprint(
         rrb.Tabs(*tabs, active_tab=[tab.name for tab in tabs].index(active)),

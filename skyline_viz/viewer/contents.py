@@ -85,8 +85,8 @@ class Contents:
     bank: bool = True
     """Whether the filter bank is in it."""
 
-    path_bins: bool = False
-    """Whether the `entities.COLUMN` timeline is in it."""
+    columns: bool = False
+    """Whether the `entities.COLUMN` timeline is in it: the pixels of path and truth, and plots."""
 
     photos: int = 1
     """Number of photos on the `entities.IMAGE` timeline."""
