@@ -84,6 +84,10 @@ NODE_COSTS = "columns/node_cost"
 LINK_COSTS = "columns/link_cost"
 """Link cost that the path pays to reach each column."""
 
+SERIES = "series"
+"""`SERIES`/error, /margin, /path/node and /path/link: what is known of each column, on the timeline
+`COLUMN`; /apart/TERM how much more the truth pays for a term than the path, /apart/all for all."""
+
 DIFFERENCES = "columns/difference"
 """How far a second skyline lies below the first in each column, in pixels."""
 
@@ -158,8 +162,10 @@ IMAGE = "image"
 COLUMN = "column"
 """Timeline: the column whose pixels are looked at."""
 
-OPENING = -1
-"""Where that timeline begins: the column with the largest error, which is looked at first."""
+OPENING = 0
+"""Where that timeline begins: the pixels there are those of the column with the largest error, in
+place of those of column 0. The viewer opens at the first time there is, which cannot be negative:
+it shows no encoded picture then."""
 
 
 def of_quantity(quantity: Quantity) -> str:

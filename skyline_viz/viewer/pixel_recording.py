@@ -67,8 +67,9 @@ def log_pixels(
         opening: The column at which the timeline opens: that with the largest error.
     """
     width = detection.edges.shape[1]
-    every = np.concatenate([[opening], np.arange(width)]).astype(np.int32)
-    times = np.arange(entities.OPENING, width, dtype=np.int32)
+    times = np.arange(width, dtype=np.int32)
+    every = times.copy()
+    every[entities.OPENING] = opening
     lines = [("path", PATH, detection.skyline.rows.astype(np.int32), np.ones(width, np.bool_))]
     if truth is not None:
         lines.append(("truth", TRUTH, Case(detection, truth, 0.0).rows, truth.visible))
@@ -186,7 +187,7 @@ def ellipse(filtered: Filtered, size: int) -> tuple[F32, F32]:
 
 
 def _lengths(walk: _Walk, times: Int) -> npt.NDArray[np.int64]:
-    """``(W + 1,)`` how many pixels a line has at each time: one or none."""
+    """``(W,)`` how many pixels a line has at each time: one or none."""
     return np.isin(times, walk.times).astype(np.int64)
 
 

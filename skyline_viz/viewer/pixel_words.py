@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from skyline_viz.arrays import Int
 from skyline_viz.detection import Detection
 from skyline_viz.diagnosis.explanation import Explanation
+from skyline_viz.viewer import entities
 
 Walk = tuple[str, Int, Sequence[Explanation]]
 """Name of a line, places on the timeline ``(k,)``, and its pixels there."""
@@ -26,7 +27,7 @@ def about_pixels(detection: Detection, walks: Sequence[Walk], times: Int) -> lis
     texts = []
     for at in times.tolist():
         pixels = {line: told[at] for line, told in by_time if at in told}
-        texts.append(_about(detection, pixels, opening=at < 0))
+        texts.append(_about(detection, pixels, opening=at == entities.OPENING))
     return texts
 
 

@@ -37,7 +37,7 @@ from skyline_viz.system.names import printable, recording_id, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_recording import log_filter_bank
 from skyline_viz.viewer.blueprints import detection_blueprint, stages_blueprint
-from skyline_viz.viewer.column_views import TRUTH_RADIUS, log_columns, log_line
+from skyline_viz.viewer.column_views import TRUTH_RADIUS, log_columns, log_line, log_series
 from skyline_viz.viewer.contents import Contents, Fidelity
 from skyline_viz.viewer.documents import markdown_document
 from skyline_viz.viewer.near import Near
@@ -179,6 +179,7 @@ def log_along_columns(
     margins = detection.margins()
     errors = column_errors(detection.skyline, truth) if truth else None
     log_pixels(recording, detection, truth, opening_column(errors, margins))
+    log_series(recording, detection, margins, truth)
 
 
 def _near(

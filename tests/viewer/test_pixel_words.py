@@ -4,6 +4,7 @@ import numpy as np
 
 import skyline_viz as sv
 from skyline_viz.diagnosis.explanation import explain_pixels
+from skyline_viz.viewer import entities
 from skyline_viz.viewer.pixel_words import about_pixels
 from testing.recordings import scene
 
@@ -24,7 +25,7 @@ def test_costs_of_both_and_their_difference_stand_beside_each_other():
 
 def test_terms_that_are_switched_off_are_left_out():
     found = sv.Detector(config=sv.DetectorConfig.paper()).detect(scene()[0])
-    at = np.array([-1], np.int32)
+    at = np.array([entities.OPENING], np.int32)
     (text,) = about_pixels(found, [("path", at, explain_pixels(found, [30], [5]))], at)
     assert "clear sky" not in text
     assert "pays for score" in text
