@@ -138,8 +138,8 @@ class Inspect:
         full = total <= self.full_megapixels * 1e6
         if not full:
             size = in_words(FULL_RECORDING * total)
-            self.split or len(inputs) == 1
-            near = fidelity_of(total, self.full_megapixels) == "full"
+            alone = self.split or len(inputs) == 1
+            near = fidelity_of(total, self.full_megapixels, alone=alone) == "full"
             say(
                 f"maps are kept {'whole near the line alone' if near else 'lean'}: "
                 f"{total / 1e6:.1f} megapixels in full would be {size} in one recording; "
