@@ -97,14 +97,37 @@ class Bins:
             >>> Bins().label(143)
             'bin 143: coherence 0.4 to 0.8, strength 112 to 148, orientation 163 to 174°'
         """
-        row, orientation = divmod(index, self.orientations)
-        coherence, strength = divmod(row, self.strengths)
-        step = 180.0 / self.orientations
-        first = ((orientation - 0.5) * step) % 180.0
-        last = ((orientation + 0.5) * step) % 180.0
+        coherence, strength, orientation = self.levels(index)
         return (
             f"bin {index}: coherence {self.coherence_label(coherence)}, "
-            f"strength {self.strength_label(strength)}, orientation {first:.0f} to {last:.0f}°"
+            f"strength {self.strength_label(strength)}, "
+            f"orientation {self.orientation_label(orientation)}"
+        )
+
+    def levels(self, index: int) -> tuple[int, int, int]:
+        """Levels of coherence, strength and orientation of a bin.
+
+        Examples:
+            >>> Bins().levels(143)
+            (1, 2, 15)
+        """
+        row, orientation = divmod(index, self.orientations)
+        return *divmod(row, self.strengths), orientation
+
+    def why(
+        self, index: int, coherence: float, strength: float, orientation: float
+    ) -> tuple[str, str, str]:
+        """Why a pixel with some features falls into a bin, in words.
+
+        Examples:
+            >>> Bins().why(143, 0.61, 120.4, 170.0)[1]
+            'strength 120.4 is in 112 to 148'
+        """
+        one, two, three = self.levels(index)
+        return (
+            f"coherence {coherence:.2f} is in {self.coherence_label(one)}",
+            f"strength {strength:.1f} is in {self.strength_label(two)}",
+            f"orientation {orientation:.0f}° is in {self.orientation_label(three)}",
         )
 
     def coherence_label(self, level: int) -> str:
@@ -114,6 +137,18 @@ class Bins:
     def strength_label(self, level: int) -> str:
         """Strengths of a level, in words."""
         return _range(level, self.strengths, self.strength_offset, self.strength_range)
+
+    def orientation_label(self, level: int) -> str:
+        """Orientations of a level, in words.
+
+        Examples:
+            >>> Bins().orientation_label(8)
+            '84 to 96°'
+        """
+        step = 180.0 / self.orientations
+        first = ((level - 0.5) * step) % 180.0
+        last = ((level + 0.5) * step) % 180.0
+        return f"{first:.0f} to {last:.0f}°"
 
     def mirrored(self) -> npt.NDArray[np.intp]:
         """Bin ``(count,)`` into which each bin's pixels fall in the left-right flipped photo.

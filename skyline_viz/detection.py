@@ -28,6 +28,7 @@ from skyline_viz.stage import (
     COHERENCE,
     COST,
     EDGES,
+    FUSED,
     ORIENTATION,
     PATH,
     SCORE,
@@ -196,12 +197,7 @@ class Detection:
 
     @classmethod
     def of_line(
-        cls,
-        photo: U8,
-        skyline: Skyline,
-        *,
-        method: str,
-        seconds: dict[str, float] | None = None,
+        cls, photo: U8, skyline: Skyline, *, method: str, seconds: dict[str, float] | None = None
     ) -> Detection:
         """A detection of which only the line is known.
 
@@ -284,19 +280,19 @@ class FilterDetection(Detection):
             yield Stage(SKY, self._sky_map(self.sky), "photo")
         yield Stage(EDGES, self.edges, "mask")
         whole = cache(partial(tensor_map, self.photo))  # one for all three
-        of_some = partial(tensor_at, self.photo)
         for one in (STRENGTH, COHERENCE, ORIENTATION):
             dense = partial(lambda name: getattr(whole(), name), one.name)
-            at = partial(lambda name, *some: getattr(of_some(*some), name), one.name)
+            at = partial(lambda name, *some: getattr(tensor_at(self.photo, *some), name), one.name)
             yield Stage(one, getattr(self, one.name), "edges", dense=dense, at=at)
         yield Stage(BIN, self.bins, "edges", legend=bin_legend(self.bank.bins))
         yield Stage(SCORE, self.scores, "edges")
+        both = [self.cost_model[name].of_edges() for name in ("score", "strength")]
+        yield Stage(FUSED, np.add(*both, dtype=np.float32), "edges")
         yield from self._last_stages()
 
     def _sky_map(self, sky: F32) -> F32:
         """``(H, W)`` probability of sky of each pixel, between centres of regions; made anew."""
-        whole = np.asarray(cv2.resize(sky, self.edges.shape[::-1]), np.float32)
-        read_only(whole)
+        read_only(whole := np.asarray(cv2.resize(sky, self.edges.shape[::-1]), np.float32))
         return whole
 
     def again(self, config: DetectorConfig) -> FilterDetection:

@@ -169,13 +169,72 @@ COST = Quantity(
     "magma_r",
     span=(0.0, 0.88),
     contrast=0.5,
-    about="Nodal cost: bright is cheap",
+    about="Nodal cost: all terms, bright is cheap",
     word="nodal cost",
 )
 PATH = Quantity("path", unit=" px", about="Path: row of the skyline", tabs=())
-DETOUR = Quantity("detour", "magma_r", " dearer than the path", (0.0, 0.88), 0.5, low=0.0)
+DETOUR = Quantity(
+    "detour",
+    "magma_r",
+    " dearer than the path",
+    (0.0, 0.88),
+    0.5,
+    low=0.0,
+    about="Min-marginals: how much dearer the best path through a pixel is",
+    tabs=("Search",),
+)
 
-OURS = (SKY, EDGES, STRENGTH, COHERENCE, ORIENTATION, BIN, SCORE, COST)
+FUSED = Quantity(
+    "score and strength",
+    "magma_r",
+    span=(0.0, 0.88),
+    low=0.0,
+    about="Score and strength: bright is cheap",
+    word="score and strength cost",
+)
+ADDED = Quantity(
+    "added",
+    "magma_r",
+    span=(0.0, 0.88),
+    low=0.0,
+    about="Clear sky and sky model: bright is cheap",
+    group="terms",
+    word="clear sky and sky model cost",
+)
+"""What our own terms come to, which all pixels pay."""
+
+FORWARD = Quantity(
+    "forward",
+    "magma_r",
+    span=(0.0, 0.88),
+    contrast=0.5,
+    low=0.0,
+    about="Forward table: dearer than the cheapest way to its column",
+    group="search",
+    tabs=("Search",),
+    word="way from the left dearer by",
+)
+BACK = Quantity(
+    "back",
+    "blue_red",
+    unit=" rows",
+    about="Back pointers: blue comes from above, red from below",
+    group="search",
+    tabs=("Search",),
+    word="comes from",
+)
+LINK = Quantity(
+    "link",
+    "magma_r",
+    span=(0.0, 0.88),
+    low=0.0,
+    about="Link cost of that step: bright is cheap",
+    group="search",
+    tabs=("Search",),
+    word="link costs",
+)
+
+OURS = (SKY, EDGES, STRENGTH, COHERENCE, ORIENTATION, BIN, SCORE, FUSED, COST)
 """The stages of our detector that can be laid over the photo, in their order."""
 
 
@@ -188,4 +247,5 @@ def of_term(name: str) -> Quantity:
         about=f"{name.capitalize()}: bright is cheap",
         group="terms",
         tabs=("Terms",),
+        word=f"{name} costs",
     )

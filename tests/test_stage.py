@@ -45,7 +45,18 @@ def test_stages_cannot_be_changed():
 
 
 def test_our_stages_are_those_of_the_method_in_order():
-    names = ["sky", "edges", "strength", "coherence", "orientation", "bin", "score", "cost", "path"]
+    names = [
+        "sky",
+        "edges",
+        "strength",
+        "coherence",
+        "orientation",
+        "bin",
+        "score",
+        "score and strength",
+        "cost",
+        "path",
+    ]
     assert list(FOUND["ours"].stages) == names
 
 

@@ -41,5 +41,8 @@ PhotoId: TypeAlias = Annotated[int, Path(ge=1, le=2**62)]
 Column: TypeAlias = Annotated[int, Path(ge=0, le=100_000)]
 """A column of a photo."""
 
+Row: TypeAlias = Annotated[int, Path(ge=0, le=100_000)]
+"""A row of a photo."""
+
 Tile: TypeAlias = Annotated[int, Path(ge=0, le=1000)]
 """Number of a tile, across or down."""

@@ -6,11 +6,12 @@ from collections.abc import Callable
 
 from fastapi import APIRouter, HTTPException, Response
 
-from annotate.server.dependencies import Bench, Column, PhotoId
+from annotate.server.dependencies import Bench, Column, PhotoId, Row
 from annotate.server.messages import (
     Alternatives,
     Apply,
     Document,
+    Explained,
     Margins,
     Part,
     Pixel,
@@ -20,6 +21,7 @@ from annotate.server.messages import (
 from annotate.store.store import StaleError
 from annotate.work.session import Session
 from annotate.work.workbench import Workbench
+from skyline_viz.diagnosis.explanation import explain_pixel
 from skyline_viz.photo import PhotoError
 from skyline_viz.viewer.in_memory import recorded
 
@@ -96,6 +98,18 @@ def recording(bench: Bench, photo: PhotoId) -> Response:
         line = session.wire.skyline
     data = recorded(bench.detection(session), line, session.photo.name)
     return Response(data, media_type="application/octet-stream")
+
+
+@router.get("/pixels/{column}/{row}")
+def explain(bench: Bench, photo: PhotoId, column: Column, row: Row) -> Explained:
+    """One pixel, all the way down: its edge, its filter, and what it pays for each term."""
+    session = bench.session(photo)
+    if session.blind:
+        raise HTTPException(403, BLIND)
+    try:
+        return Explained.of(explain_pixel(bench.detection(session), row, column))
+    except ValueError as error:
+        raise HTTPException(422, str(error)) from error
 
 
 def _change(bench: Workbench, photo: int, how: Callable[[Session], int]) -> Document:

@@ -245,17 +245,17 @@ class Inspect:
         """Log a photo of `together` ones, and say what the recording now holds."""
         from skyline_viz.detection import FilterDetection
         from skyline_viz.running.warming import warm_up
-        from skyline_viz.viewer.bank_recording import log_path_bins
+        from skyline_viz.viewer import entities
         from skyline_viz.viewer.comparison import log_comparison
         from skyline_viz.viewer.contents import Contents, MethodContents
-        from skyline_viz.viewer.recording import log_detection
+        from skyline_viz.viewer.recording import log_along_columns, log_detection
 
         photo, truth = one.item.photo(), self._truth_of(one)
         warm_up()
         found = using.detector.detect(photo)
         alone = together == 1
         if alone:  # what is logged below is there in every column
-            recording.set_time("column", sequence=0)
+            recording.set_time("column", sequence=entities.OPENING)
         ours = found if isinstance(found, FilterDetection) else None
         sweeps = []
         if self.sweep and ours:
@@ -273,8 +273,7 @@ class Inspect:
             diagnosis = inspect_more.log_diagnosis(recording, found, truth, one.name)
         if alone:
             recording.disable_timeline("column")
-            if ours:
-                log_path_bins(recording, ours)
+            log_along_columns(recording, found, truth)
         if sweeps and ours:
             inspect_more.log_sweeps(recording, sweeps, ours, truth)
         error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
@@ -288,7 +287,7 @@ class Inspect:
             fidelity,
             truth=truth is not None,
             diagnosed=diagnosis is not None and not diagnosis.right,
-            path_bins=alone and ours is not None,
+            columns=alone,
             photos=together,
             **compared,
             methods=methods,

@@ -1,10 +1,12 @@
 """How the viewer lays a recording out: first the answer, then the stages, then the details.
 
 - *Skyline*: where is the line, and is it right?
-- *Stages*: the paper's figure 1 and the sky, (a) to (g).
+- *Stages*: the paper's figure 1, (a) to (f), and what is added to it.
 - *Tensor*: what picks the filter.
 - *Terms*: what each pixel pays for each term of the nodal cost.
-- *Filter bank*: the filters, and which of them the path used.
+- *Search*: min-marginals, forward table, back pointers and link costs.
+- *Pixel*: one pixel of the path and one of the truth, all the way down.
+- *Filter bank*: the filters, and which of them the chosen pixels use.
 - *Columns*: error, margin and costs along the columns.
 - *Diagnosis*: why it went wrong, where it did.
 - *Sweep*: how the path changes with a setting.
@@ -15,18 +17,22 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+import rerun as rr
 import rerun.blueprint as rrb
 
-from skyline_viz.stage import SKY, Quantity
+from skyline_viz.stage import ADDED, COST, FUSED, SKY, Quantity
 from skyline_viz.system.names import shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents, MethodContents
 from skyline_viz.viewer.entities import below
+from skyline_viz.viewer.stage_maps import SEARCH
 
-TABS = ("Skyline", "Stages", "Tensor", "Terms", "Filter bank", "Columns")
+TABS = ("Skyline", "Stages", "Tensor", "Terms", "Search", "Filter bank", "Columns")
 """The tabs of a recording of one photo with a full detection."""
 
 _BLACK = (12, 12, 12)
+_THIN = 0.6  # half the width of a line on a map, in points of the screen
+_LEAN = " (lean: the cheapest of each column)"
 _LINES = (entities.PATH, entities.TRUTH, entities.ALTERNATIVE)
 
 
@@ -39,9 +45,11 @@ def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blue
     """
     tabs = [
         _first_tab(contents),
-        _stages_tab(contents, _lettered(contents.stages), "Stages"),
+        _stages_tab(contents, _lettered(contents), "Stages"),
         *_own_tab(contents, contents.stages, "Tensor"),
         *_own_tab(contents, contents.terms, "Terms"),
+        *_own_tab(contents, SEARCH if contents.search else (), "Search"),
+        *([_pixel_tab(contents)] if contents.columns else []),
         *([_bank_tab(contents)] if contents.bank else []),
         _columns_tab(contents),
         *([_diagnosis_tab(contents)] if contents.diagnosed else []),
@@ -78,7 +86,7 @@ def _first_tab(contents: Contents) -> rrb.Container:
         "Where is the line? magenta: path"
         + (", turquoise: truth" if contents.truth else "")
         + (f", yellow: {contents.compared}" if contents.compared else ""),
-        [entities.PHOTO, *_with_halos(), entities.STRIP, entities.CHOSEN],
+        [entities.PHOTO, *_with_halos(), entities.STRIP, f"{entities.CHOSEN}/**"],
     )
     plot = _errors() if contents.truth else _plot(entities.MARGINS, "Margin (cost)")
     report = rrb.TextDocumentView(origin=entities.REPORT, name="Report")
@@ -90,11 +98,33 @@ def _first_tab(contents: Contents) -> rrb.Container:
 
 
 def _stages_tab(contents: Contents, stages: dict[str, list[str]], name: str) -> rrb.Container:
-    views = [_photo_view(title, shown) for title, shown in stages.items()]
+    views = [
+        _photo_view(title, shown) if entities.PHOTO in shown else _map_view(contents, title, shown)
+        for title, shown in stages.items()
+    ]
     return _grid(contents, views, name)
 
 
-_FIGURE_1 = {"edges": 0, "score": 1, "cost": 3}  # where others have no place of their own: 2
+def _map_view(contents: Contents, title: str, shown: Sequence[str]) -> rrb.View:
+    """A map with path and truth on it, so thin that it stays in sight."""
+    lines = [entities.PATH, *([entities.TRUTH] if contents.truth else [])]
+    thin = rr.LineStrips2D.from_fields(radii=[-_THIN]).visualizer()
+    return rrb.Spatial2DView(
+        origin="/",
+        contents=[f"+ /{entity}" for entity in (*shown, *lines)],
+        name=shown_in_viewer(title + (_LEAN if contents.lean else "")),
+        background=_BLACK,
+        overrides={f"/{line}": thin for line in lines},
+    )
+
+
+_PAPERS = ("edges", "score", "strength", "score and strength")  # figure 1 besides photo and path
+_FIGURE_1 = {
+    "edges": 0,
+    "score": 1,
+    "score and strength": 3,
+    "cost": 4,
+}  # where others have no place of their own: 2
 
 
 def _figure_1(stages: Sequence[Quantity]) -> dict[str, list[str]]:
@@ -104,13 +134,21 @@ def _figure_1(stages: Sequence[Quantity]) -> dict[str, list[str]]:
     return {one.title: [entities.of_quantity(one)] for one in mine}
 
 
-def _lettered(stages: Sequence[Quantity]) -> dict[str, list[str]]:
-    views = {
-        "Photo": [entities.PHOTO],
-        **_figure_1(stages),
-        "Path": [entities.PHOTO, *_with_halos()],
+def _lettered(contents: Contents) -> dict[str, list[str]]:
+    """Figure 1 of the paper, (a) to (f), and what we add to it as added; or all of another's."""
+    figure = _figure_1(contents.stages)
+    path = [entities.PHOTO, *_with_halos()]
+    ours = FUSED in contents.stages
+    papers = {one.title for one in contents.stages if one.name in _PAPERS or not ours}
+    known = {title: shown for title, shown in figure.items() if title in papers}
+    views = {"Photo": [entities.PHOTO], **known, "Path": path}
+    named = {f"({chr(ord('a') + at)}) {title}": views[title] for at, title in enumerate(views)}
+    added = {title: shown for title, shown in figure.items() if title not in papers}
+    if ADDED in contents.terms:
+        added[ADDED.title] = [entities.of_quantity(ADDED)]
+    return named | {
+        title if title == COST.title else f"Added: {title}": shown for title, shown in added.items()
     }
-    return {f"({chr(ord('a') + at)}) {title}": views[title] for at, title in enumerate(views)}
 
 
 def _own_tab(contents: Contents, quantities: Sequence[Quantity], name: str) -> list[rrb.Container]:
@@ -122,29 +160,70 @@ def _own_tab(contents: Contents, quantities: Sequence[Quantity], name: str) -> l
 def _bank_tab(contents: Contents) -> rrb.Container:
     filters = rrb.Spatial2DView(
         origin="bank",
-        contents=[f"+ /{entities.BANK_FILTERS}/**", f"+ /{entities.BANK_CHOSEN}"],
+        contents=[f"+ /{entities.BANK_FILTERS}/**", f"+ /{entities.BANK_CHOSEN}/**"],
         name="Filters: blue negative, red positive taps",
         background=_BLACK,
     )
     samples = rrb.Spatial2DView(
         origin="bank",
-        contents=[f"+ /{entities.BANK_SAMPLES}/**", f"+ /{entities.BANK_CHOSEN}"],
+        contents=[f"+ /{entities.BANK_SAMPLES}/**", f"+ /{entities.BANK_CHOSEN}/**"],
         name="Training samples in each bin",
         background=_BLACK,
     )
     pictures = rrb.Horizontal(filters, samples)
-    if not contents.path_bins:
+    if not contents.columns:
         return rrb.Horizontal(filters, samples, name="Filter bank")
-    photo = _photo_view(
-        "The chosen pixel of the path: scrub the column timeline",
-        [entities.PHOTO, *_with_halos([entities.PATH]), entities.CHOSEN],
+    return rrb.Vertical(pictures, _chosen_view(contents), row_shares=[3, 1], name="Filter bank")
+
+
+def _chosen_view(contents: Contents) -> rrb.View:
+    """The photo with the chosen pixels."""
+    others = ", turquoise: of the truth" if contents.truth else ""
+    return _photo_view(
+        f"Magenta: pixel of the path{others}. Scrub the column timeline",
+        [entities.PHOTO, *_with_halos([entities.PATH, entities.TRUTH, entities.CHOSEN])],
     )
-    about = rrb.TextDocumentView(origin=entities.BANK_USED, name="The filter it used")
-    foot = rrb.Horizontal(photo, about, column_shares=[3, 2])
-    return rrb.Vertical(pictures, foot, row_shares=[3, 1], name="Filter bank")
+
+
+def _pixel_tab(contents: Contents) -> rrb.Container:
+    about = rrb.TextDocumentView(origin=entities.PIXEL_ABOUT, name="What it pays, and why")
+    head = rrb.Horizontal(_chosen_view(contents), about, column_shares=[3, 2])
+    if not contents.bank:
+        return rrb.Vertical(head, name="Pixel")
+    views = []
+    for line in ("path", *(["truth"] if contents.truth else [])):
+        for title in ("patch", "filter", "product"):
+            shown = [f"{entities.pixel_of(line)}/{one}" for one in (title, "ellipse")]
+            shown = shown if title == "patch" else shown[:1]
+            views.append(_photo_view(f"{line.capitalize()}: {title}", shown))
+    return rrb.Vertical(head, rrb.Horizontal(*views), row_shares=[2, 1], name="Pixel")
 
 
 def _columns_tab(contents: Contents) -> rrb.Container:
+    if not contents.columns:
+        return _bars_tab(contents)
+    titles = {
+        **({"error": "Error (px)"} if contents.truth else {}),
+        "margin": "Margin (cost): how much dearer the best other path is",
+        **({"apart": "Truth less path (cost), mean of 9 columns"} if contents.truth else {}),
+        "path": "Nodal and link cost of the path",
+    }
+    axis = rrb.TimeAxis(link=rrb.components.LinkAxis.LinkToGlobal)
+    plots = [
+        rrb.TimeSeriesView(
+            origin=f"{entities.SERIES}/{name}",
+            name=title,
+            axis_x=axis,
+            plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.RightTop),
+        )
+        for name, title in titles.items()
+    ]
+    shares = [2, *(2 if name == "apart" else 1 for name in titles)]
+    return rrb.Vertical(_chosen_view(contents), *plots, row_shares=shares, name="Columns")
+
+
+def _bars_tab(contents: Contents) -> rrb.Container:
+    """Plots of several photos, whose timeline is that of the photos."""
     plots = [
         *([_errors()] if contents.truth else []),
         _plot(entities.MARGINS, "Margin (cost): how much dearer the best other path is"),
@@ -164,8 +243,8 @@ def _diagnosis_tab(contents: Contents) -> rrb.Container:
         _whole_photo(contents),
     )
     report = rrb.TextDocumentView(origin=entities.DIAGNOSIS, name="Why")
-    costs = _photo_view("What they pay", [entities.STACKED_COSTS])
-    plot = costs if contents.stacked_costs else _errors()
+    pays = _photo_view("What they pay", [entities.STACKED_COSTS])
+    plot = pays if contents.stacked_costs else _errors()
     foot = rrb.Horizontal(plot, report, column_shares=[2, 1])
     return rrb.Vertical(photo, foot, row_shares=[3, 2], name="Diagnosis")
 
@@ -309,7 +388,7 @@ def _with_panels(tabs: list[rrb.Container], contents: Contents, active: str) -> 
         time = rrb.TimePanel(state="collapsed", timeline=entities.IMAGE, play_state="paused")
     elif contents.swept:
         time = rrb.TimePanel(state="collapsed", timeline=contents.swept, play_state="paused")
-    elif contents.path_bins:
+    elif contents.columns:
         time = rrb.TimePanel(state="collapsed", timeline=entities.COLUMN, play_state="paused")
     return rrb.Blueprint(
         rrb.Tabs(*tabs, active_tab=[tab.name for tab in tabs].index(active)),

@@ -12,6 +12,7 @@ import rerun as rr
 from skyline_viz.arrays import F64, runs
 from skyline_viz.colours import HALO, Colour, coloured
 from skyline_viz.detection import Detection
+from skyline_viz.diagnosis.counterfactual import Case
 from skyline_viz.evaluation.metrics import column_errors
 from skyline_viz.skyline import Skyline
 from skyline_viz.viewer import entities
@@ -33,6 +34,11 @@ STRIP_MARGINS = (4.0, 2.0, 1.0, 0.5, 0.25)
 
 _ERROR, _MARGIN, _COST = (0xA0, 0x6E, 0x00), (0x3C, 0x7C, 0xA0), (0x7C, 0x7C, 0x7C)
 _LINK = (0xB0, 0xB0, 0xB0)
+_LIGHT_ERROR, _LIGHT_MARGIN, _LIGHT_COST = (  # lines are read on black, areas by their height
+    (0xE6, 0xA5, 0x2A),
+    (0x6F, 0xB6, 0xDC),
+    (0xD0, 0xD0, 0xD0),
+)
 
 
 def log_line(
@@ -108,6 +114,58 @@ def log_columns(
         recording.log(at(entity), curve(values, colour))
     recording.log(at(entities.LINK_COSTS), rr.BarChart(link.astype(np.float32), color=_LINK))
     _log_strip(recording, at(entities.STRIP), strip, words, len(detection.photo))
+
+
+def log_series(
+    recording: rr.RecordingStream, detection: Detection, margins: F64, truth: Skyline | None
+) -> None:
+    """Log what is known of each column along the timeline `entities.COLUMN`, see `entities.SERIES`.
+
+    Args:
+        recording: Where to.
+        detection: The detection.
+        margins: ``(W,)`` its margins.
+        truth: The true skyline.
+    """
+    node, link = path_costs(detection)
+    known = {
+        "margin": (np.where(np.isfinite(margins), margins, np.nan), "margin", _LIGHT_MARGIN),
+        "path/node": (node, "nodal cost", _LIGHT_COST),
+        "path/link": (link, "link cost", _LINK),
+    }
+    if truth is not None:
+        errors = column_errors(detection.skyline, truth)
+        known["error"] = (errors, "error", _LIGHT_ERROR)
+        rows = Case(detection, truth, 0.0).rows
+        own = detection.cost_model.split(detection.skyline.rows.astype(np.int32))
+        apart = {
+            name: np.where(truth.visible, paid - own[name], np.nan)
+            for name, paid in detection.cost_model.split(rows).items()
+        }
+        apart = {name: values for name, values in apart.items() if np.nansum(np.abs(values))}
+        colours = {term.name: term.colour for term in detection.cost_model.terms}
+        everything = np.add.reduce([*apart.values(), np.zeros(len(rows))])
+        for name, values in {**apart, "all": everything}.items():
+            red, green, blue = bytes.fromhex(colours.get(name, "#FFFFFF")[1:])
+            title = f"{name}: {np.nansum(values):+.1f} in all"
+            place = f"apart/{name.replace(' ', '_')}"
+            known[place] = (_smooth(values), title, (red, green, blue))
+    for name, (values, title, colour) in known.items():
+        columns = np.flatnonzero(np.isfinite(values))
+        entity = f"{entities.SERIES}/{name}"
+        look = rr.SeriesLines(colors=[colour], names=[title], widths=[1.5])
+        recording.log(entity, look, static=True)
+        times = [rr.TimeColumn(entities.COLUMN, sequence=columns)]
+        recording.send_columns(entity, times, rr.Scalars.columns(scalars=values[columns]))
+
+
+def _smooth(values: F64) -> F64:
+    """Means of nine columns, as many as are known of them; unknown ones stay so."""
+    known = np.isfinite(values)
+    nine = np.ones(9)
+    sums = np.convolve(np.where(known, values, 0.0), nine)[4 : 4 + len(values)]
+    counts = np.convolve(known.astype(np.float64), nine)[4 : 4 + len(values)]
+    return np.where(known, sums / np.maximum(counts, 1.0), np.nan)
 
 
 def curve(values: npt.NDArray[np.floating], colour: Colour) -> rr.BarChart:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 from skyline_viz.detection import Detection
-from skyline_viz.stage import OURS, Quantity, of_term
+from skyline_viz.stage import ADDED, FUSED, OURS, Quantity, of_term
 from skyline_viz.system.memory import FULL_MEGAPIXELS
 from skyline_viz.viewer.stage_maps import shown_terms
 
@@ -82,11 +82,17 @@ class Contents:
     terms: tuple[Quantity, ...] = ()
     """The terms of the nodal cost whose maps are in it."""
 
+    search: bool = False
+    """Whether the maps of the search for the path are in it, see `stage_maps.SEARCH`."""
+
+    lean: bool = False
+    """Whether maps hold the cheapest edge pixels of each column only."""
+
     bank: bool = True
     """Whether the filter bank is in it."""
 
-    path_bins: bool = False
-    """Whether the `entities.COLUMN` timeline is in it."""
+    columns: bool = False
+    """Whether the `entities.COLUMN` timeline is in it: the pixels of path and truth, and plots."""
 
     photos: int = 1
     """Number of photos on the `entities.IMAGE` timeline."""
@@ -120,9 +126,21 @@ class Contents:
         """
         height, width = detection.edges.shape
         full = fidelity != "lean"
-        terms = tuple(of_term(term.name) for term in shown_terms(detection)) if full else ()
+        paying = shown_terms(detection)
+        terms = tuple(of_term(term.name) for term in paying)
+        if any(term.paid_by == "all" for term in paying):
+            terms = *terms, ADDED
         bank = full and detection.bank is not None
-        return cls(height, width, stages=_shown(detection), terms=terms, bank=bank, **more)
+        return cls(
+            height,
+            width,
+            stages=tuple(one for one in _shown(detection) if full or one != FUSED),
+            terms=terms if full else (),
+            search=full,
+            lean=not full,
+            bank=bank,
+            **more,
+        )
 
 
 def _shown(detection: Detection) -> tuple[Quantity, ...]:

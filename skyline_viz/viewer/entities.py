@@ -69,7 +69,8 @@ STRIP = "skyline/strip"
 there is no truth."""
 
 CHOSEN = "skyline/chosen"
-"""The path's pixel in the chosen column; scrub the `COLUMN` timeline to choose."""
+"""`CHOSEN`/path and /truth: the pixels in the chosen column; scrub the `COLUMN` timeline to
+choose."""
 
 ERRORS = "columns/error"
 """Error of each column, in pixels."""
@@ -82,6 +83,10 @@ NODE_COSTS = "columns/node_cost"
 
 LINK_COSTS = "columns/link_cost"
 """Link cost that the path pays to reach each column."""
+
+SERIES = "series"
+"""`SERIES`/error, /margin, /path/node and /path/link: what is known of each column, on the timeline
+`COLUMN`; /apart/TERM how much more the truth pays for a term than the path, /apart/all for all."""
 
 DIFFERENCES = "columns/difference"
 """How far a second skyline lies below the first in each column, in pixels."""
@@ -105,10 +110,13 @@ BANK_SAMPLES = "bank/samples"
 """Training samples of each bin."""
 
 BANK_CHOSEN = "bank/chosen"
-"""Frame around the filter that the chosen path pixel used."""
+"""`BANK_CHOSEN`/path and /truth: frames around the filters of the chosen pixels."""
 
-BANK_USED = "bank/used"
-"""What is known about that pixel, in Markdown."""
+PIXEL = "pixel"
+"""`PIXEL`/path and /truth: parents of what the chosen pixels come from, see `pixel_of`."""
+
+PIXEL_ABOUT = "pixel/about"
+"""What is known of both, in Markdown."""
 
 SEGMENTS = "diagnosis/segments"
 """Frames around the failing segments; at ``largest`` below it the largest, with their causes."""
@@ -152,7 +160,12 @@ IMAGE = "image"
 """Timeline: the number of the photo in a recording of several."""
 
 COLUMN = "column"
-"""Timeline: the column whose path pixel is looked at."""
+"""Timeline: the column whose pixels are looked at."""
+
+OPENING = 0
+"""Where that timeline begins: the pixels there are those of the column with the largest error, in
+place of those of column 0. The viewer opens at the first time there is, which cannot be negative:
+it shows no encoded picture then."""
 
 
 def of_quantity(quantity: Quantity) -> str:
@@ -176,6 +189,15 @@ def stages_of(method: str) -> str:
 def line_of(method: str) -> str:
     """The skyline that another method found, by its name."""
     return f"{METHOD_LINES}/{rr.escape_entity_path_part(method)}"
+
+
+def pixel_of(line: str) -> str:
+    """Parent of ``patch``, ``ellipse``, ``filter`` and ``product`` of a line's chosen pixel.
+
+    >>> pixel_of("truth")
+    'pixel/truth'
+    """
+    return f"{PIXEL}/{line}"
 
 
 def below(parent: str, entity: str) -> str:

@@ -8,9 +8,10 @@ import rerun as rr
 
 from skyline_viz.detection import Detection
 from skyline_viz.skyline import Skyline
+from skyline_viz.viewer import entities
 from skyline_viz.viewer.blueprints import detection_blueprint
 from skyline_viz.viewer.contents import Contents, fidelity_of
-from skyline_viz.viewer.recording import APPLICATION, log_detection
+from skyline_viz.viewer.recording import APPLICATION, log_along_columns, log_detection
 
 _one_at_a_time = threading.Lock()  # a recording takes as much memory as its photo is large
 
@@ -31,8 +32,11 @@ def recorded(detection: Detection, truth: Skyline, name: str) -> bytes:
         try:
             recording.send_recording_name(name)
             fidelity = fidelity_of(detection.edges.size)
+            recording.set_time(entities.COLUMN, sequence=entities.OPENING)
             log_detection(recording, detection, truth, name=name, fidelity=fidelity)
-            contents = Contents.of(detection, fidelity, truth=True)
+            recording.reset_time()
+            log_along_columns(recording, detection, truth)
+            contents = Contents.of(detection, fidelity, truth=True, columns=True)
             recording.send_blueprint(detection_blueprint(contents))
             return stream.read() or b""
         finally:

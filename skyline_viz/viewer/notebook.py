@@ -15,9 +15,10 @@ import rerun.notebook as rrn
 from skyline_viz.detection import Detection
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.names import printable, shown_in_viewer
+from skyline_viz.viewer import entities
 from skyline_viz.viewer.blueprints import detection_blueprint
 from skyline_viz.viewer.contents import Contents, Fidelity
-from skyline_viz.viewer.recording import APPLICATION, log_detection
+from skyline_viz.viewer.recording import APPLICATION, log_along_columns, log_detection
 
 
 def show_detection(
@@ -49,11 +50,14 @@ def show_detection(
     recording = rr.RecordingStream(APPLICATION)
     recording.set_log_time_enabled(False)
     recording.send_recording_name(shown_in_viewer(printable(name)))
-    contents = Contents.of(detection, fidelity, truth=truth is not None)
+    contents = Contents.of(detection, fidelity, truth=truth is not None, columns=True)
     viewer = rrn.Viewer(
         width=width, height=height, recording=recording, blueprint=detection_blueprint(contents)
     )
+    recording.set_time(entities.COLUMN, sequence=entities.OPENING)
     log_detection(recording, detection, truth, name=name, fidelity=fidelity)
+    recording.reset_time()
+    log_along_columns(recording, detection, truth)
     recording.flush()
     viewer.update_panels(top="hidden", blueprint="hidden", selection="hidden", time="collapsed")
     viewer.display()

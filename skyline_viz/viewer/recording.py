@@ -26,6 +26,7 @@ import rerun.blueprint as rrb
 from skyline_viz.arrays import U8, Bool, check_photo
 from skyline_viz.colours import PATH, TRUTH
 from skyline_viz.detection import Detection
+from skyline_viz.evaluation.metrics import column_errors
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.files import replacing
 from skyline_viz.skyline import Skyline, SkylineError
@@ -36,10 +37,11 @@ from skyline_viz.system.names import printable, recording_id, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_recording import log_filter_bank
 from skyline_viz.viewer.blueprints import detection_blueprint, stages_blueprint
-from skyline_viz.viewer.column_views import TRUTH_RADIUS, log_columns, log_line
+from skyline_viz.viewer.column_views import TRUTH_RADIUS, log_columns, log_line, log_series
 from skyline_viz.viewer.contents import Contents, Fidelity
 from skyline_viz.viewer.documents import markdown_document
 from skyline_viz.viewer.near import Near
+from skyline_viz.viewer.pixel_recording import log_pixels, opening_column
 from skyline_viz.viewer.report import report
 from skyline_viz.viewer.rerun_file import saved
 from skyline_viz.viewer.rerun_internals import let_go_of_orphans
@@ -162,6 +164,24 @@ def log_detection(
             contents = Contents.of(detection, fidelity, truth=truth is not None)
             _lay_out(recording, detection_blueprint(contents))
     return verdict
+
+
+def log_along_columns(
+    recording: rr.RecordingStream, detection: Detection, truth: Skyline | None
+) -> None:
+    """Log what runs along the timeline `entities.COLUMN`, which takes a recording of one photo.
+
+    Whatever is to be seen beside it is logged before, at `entities.OPENING` on that timeline.
+
+    Args:
+        recording: Where to.
+        detection: The detection.
+        truth: The true skyline.
+    """
+    margins = detection.margins()
+    errors = column_errors(detection.skyline, truth) if truth else None
+    log_pixels(recording, detection, truth, opening_column(errors, margins))
+    log_series(recording, detection, margins, truth)
 
 
 def _near(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -15,8 +16,20 @@ import rerun as rr
 from skyline_viz.arrays import F32, Bool, Int
 from skyline_viz.colours import Colour
 from skyline_viz.detection import Detection
+from skyline_viz.path import back_pointers
 from skyline_viz.skyline import Skyline
-from skyline_viz.stage import DETOUR, OURS, Quantity, Stage, of_term
+from skyline_viz.stage import (
+    ADDED,
+    BACK,
+    DETOUR,
+    FORWARD,
+    FUSED,
+    LINK,
+    OURS,
+    Quantity,
+    Stage,
+    of_term,
+)
 from skyline_viz.terms import Term
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.near import Near, Sampler
@@ -61,6 +74,8 @@ def log_maps(
     stages = dict(detection.stages)
     for name in tuple(stages):
         stage = stages.pop(name)  # its map may be as large as the photo, and is let go of
+        if stage.quantity == FUSED and not full:
+            continue  # the cost has it in it
         entity = at(entities.of_quantity(stage.quantity))
         if stage.where == "mask":
             recording.log(entity, encoded_edges(np.asarray(stage.values, np.bool_)))
@@ -81,6 +96,7 @@ def log_maps(
     if full:
         recording.log(at(entities.EDGE_PIXELS), rr.AnyValues(True, **table))
         log_terms(recording, at, detection, near)
+        log_search(recording, at, detection, near)
     return len(rows)
 
 
@@ -125,25 +141,62 @@ def log_terms(
     detection: Detection,
     near: Near | None = None,
 ) -> None:
-    """Log what each pixel pays for each term of the nodal cost; nothing where it pays nothing."""
+    """Log what each pixel pays for each term of the nodal cost, and for our own together.
+
+    Nothing is shown where a pixel pays nothing.
+    """
+    added: F32 | None = None
     for term in shown_terms(detection):
-        quantity = of_term(term.name)
-        entity = at(entities.of_quantity(quantity))
-        if near:
-            sampled = near.sample(places_of(term.map()))
-            for some in (sampled.blocks, sampled.exact):
-                some[some == 0] = np.nan
-            near.map(quantity, sampled, COARSE).log(recording, entity)
-            recording.flush()
-            continue
         paid = term.map()
+        if term.paid_by == "all":
+            added = paid.copy() if added is None else added + paid
         paid[paid == 0] = np.nan
-        dense_map(quantity, paid, COARSE).log(recording, entity)
+        _log_whole(recording, at, of_term(term.name), paid, near)
+    if added is not None:
+        _log_whole(recording, at, ADDED, added, near)
+
+
+def log_search(
+    recording: rr.RecordingStream,
+    at: Callable[[str], str],
+    detection: Detection,
+    near: Near | None = None,
+) -> None:
+    """Log what the search for the path has found at each pixel, see `SEARCH`."""
+    forward = detection.forward
+    above = (forward - forward.min(axis=0)).astype(np.float32)
+    _log_whole(recording, at, FORWARD, above, near)
+    back = back_pointers(forward, detection.delta, detection.link_weight).astype(np.float32)
+    reach = float(np.abs(back).max(initial=1.0))
+    _log_whole(recording, at, replace(BACK, low=-reach, high=reach), back, near)
+    paid = np.abs(back, out=back) * np.float32(detection.link_weight)
+    _log_whole(recording, at, LINK, paid, near)
+
+
+def _log_whole(
+    recording: rr.RecordingStream,
+    at: Callable[[str], str],
+    quantity: Quantity,
+    values: F32,
+    near: Near | None,
+) -> None:
+    """Log a map ``(H, W)``, of a large photo only as much as is kept of it."""
+    entity = at(entities.of_quantity(quantity))
+    if near:
+        near.map(quantity, near.sample(places_of(values)), COARSE).log(recording, entity)
+        recording.flush()
+    else:
+        dense_map(quantity, values, COARSE).log(recording, entity)
 
 
 def places_of(whole: npt.NDArray[np.floating[Any]]) -> Sampler:
     """What gives the values of a map at some pixels."""
     return lambda rows, columns: whole[rows, columns]
+
+
+SEARCH = (DETOUR, FORWARD, BACK, LINK)
+"""What the search for the path knows of each pixel: the min-marginals, which are logged with their
+exact values, the forward table, from where the way to it comes, and what that step costs."""
 
 
 def shown_terms(detection: Detection) -> list[Term]:

@@ -78,7 +78,7 @@ def log_sweeps(
         recording.reset_time()
         recording.set_time(sweep.timeline, sequence=sweep.steps[0].at)
         recording.log(
-            entities.BANK_USED,
+            entities.PIXEL_ABOUT,
             markdown_document(f"Choose the timeline *{entities.COLUMN}* below, and drag it."),
         )
         outcomes[sweep.timeline] = _log_sweep(recording, sweep, found, truth, advance)

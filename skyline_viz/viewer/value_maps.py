@@ -56,7 +56,7 @@ class ValueMap:
         """Log the map and what its classes mean."""
         recording.log(
             entity,
-            _legend(self.quantity, self.low, self.high, self.levels),
+            legend(self.quantity, self.low, self.high, self.levels),
             _image(self.classes),
         )
 
@@ -146,8 +146,15 @@ def classes_of(
 
 
 @lru_cache(maxsize=64)
-def _legend(quantity: Quantity, low: float, high: float, levels: int) -> rr.AnnotationContext:
-    """Colour and words of each level. Building one takes a millisecond, so they are kept."""
+def legend(quantity: Quantity, low: float, high: float, levels: int) -> rr.AnnotationContext:
+    """Colour and words of each level. Building one takes a millisecond, so they are kept.
+
+    Args:
+        quantity: What the values are.
+        low: Value of the first level.
+        high: Value of the last one.
+        levels: Number of levels.
+    """
     step = (high - low) / (levels - 1)
     first, last = quantity.span
     places = first + (last - first) * np.linspace(0, 1, levels) ** quantity.contrast

@@ -34,8 +34,9 @@ def test_a_photo_is_kept_in_full(say, hills, tmp_path):
     verify(tmp_path / "out" / "a.rrd")
     read = Read(tmp_path / "out" / "a.rrd")
     assert np.array_equal(read.picture(entities.PHOTO), sv.read_photo(photo))
-    assert {"Filter bank", "Columns"} <= read.view_names
-    assert entities.BANK_CHOSEN in read.entities()
+    assert {"Pixel", "Filter bank", "Columns"} <= read.view_names
+    assert f"{entities.BANK_CHOSEN}/path" in read.entities()
+    assert {entities.pixel_of(line) + "/patch" for line in ("path", "truth")} <= read.entities()
 
 
 def test_a_truth_that_is_visible_nowhere_is_not_diagnosed(say, hills):

@@ -2,7 +2,8 @@
 
 import pytest
 
-from skyline_viz.stage import OURS, Quantity
+from skyline_viz.stage import ADDED, OURS, SKY, Quantity
+from skyline_viz.viewer import entities
 from skyline_viz.viewer.blueprints import detection_blueprint, stages_blueprint
 from skyline_viz.viewer.contents import Contents, MethodContents
 
@@ -49,6 +50,28 @@ def test_what_else_is_in_it_has_a_tab(more, name):
     assert name not in tabs(detection_blueprint(PLAIN))
     front = detection_blueprint(contents, active=name).root_container
     assert tabs(detection_blueprint(contents))[front.active_tab] == name
+
+
+def test_what_the_paper_has_is_lettered_and_what_we_add_is_called_added():
+    contents = Contents(300, 800, terms=(ADDED,))
+    stages = detection_blueprint(contents).root_container.contents[1]
+    names = [view.name for row in stages.contents for view in row.contents]
+    assert [name[:3] for name in names[:6]] == ["(a)", "(b)", "(c)", "(d)", "(e)", "(f)"]
+    assert names[4].startswith("(e) Score and strength")
+    assert [name for name in names[6:] if name.startswith("Added: ")] == [
+        f"Added: {one.title}" for one in (SKY, ADDED)
+    ]
+
+
+def test_maps_have_path_and_truth_on_them():
+    contents = Contents(300, 800, truth=True)
+    edges = detection_blueprint(contents).root_container.contents[1].contents[0].contents[1]
+    assert {f"+ /{entities.PATH}", f"+ /{entities.TRUTH}"} <= set(edges.contents)
+
+
+def test_lean_maps_say_that_they_are():
+    stages = detection_blueprint(Contents(300, 800, lean=True)).root_container.contents[1]
+    assert "lean" in stages.contents[0].contents[1].name
 
 
 def test_other_methods_have_neither_tensor_nor_bank():

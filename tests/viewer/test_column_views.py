@@ -12,6 +12,7 @@ from skyline_viz.viewer.column_views import (
     line_strips,
     log_columns,
     log_line,
+    log_series,
     path_costs,
 )
 from testing.recordings import Read, scene
@@ -49,6 +50,29 @@ def test_a_path_costs_its_pixels_and_its_steps(found):
     node, link = path_costs(detection)
     assert link[0] == 0
     assert node.sum() + link.sum() == pytest.approx(detection.path_cost, rel=1e-5)
+
+
+def test_series_add_up_to_what_the_truth_pays_more_than_the_path(found, tmp_path):
+    detection, truth = found
+    wrong = sv.Skyline(truth.rows + 20, truth.visible)
+    with sv.new_recording(tmp_path / "a.rrd", "a") as recording:
+        log_series(recording, detection, detection.margins(), wrong)
+    read = Read(tmp_path / "a.rrd")
+
+    def series(name):
+        return read.on(entities.COLUMN, f"{entities.SERIES}/{name}", "scalars")
+
+    parent = f"{entities.SERIES}/apart/"
+    terms = [one.removeprefix(parent) for one in read.entities() if one.startswith(parent)]
+    assert {"no_edge", "all"} <= set(terms)
+    for column in (0, 30, 119):
+        parts = [series(f"apart/{name}")[column][0] for name in terms if name != "all"]
+        assert sum(parts) == pytest.approx(series("apart/all")[column][0], abs=1e-5)
+        off = abs(wrong.rows[column] - detection.skyline.rows[column])
+        assert series("error")[column][0] == pytest.approx(off)
+    assert 60 not in series("error")
+    assert 60 not in series("apart/all")
+    assert sorted(series("path/node")) == list(range(120))
 
 
 @pytest.mark.parametrize("known", [True, False])

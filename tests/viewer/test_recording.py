@@ -9,8 +9,6 @@ import skyline_viz as sv
 from skyline_viz.evaluation.metrics import column_errors
 from skyline_viz.tensor import tensor_map
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.bank_pictures import cell_box
-from skyline_viz.viewer.bank_recording import log_path_bins, path_bins
 from skyline_viz.viewer.blueprints import TABS
 from skyline_viz.viewer.column_views import path_costs
 from skyline_viz.viewer.stage_maps import LEAN_PIXELS, shown_pixels
@@ -233,24 +231,6 @@ def test_the_tabs_are_those_of_the_docs(full):
     assert len(told) == len(shown) > 1
     for title, words in zip(shown, told, strict=True):
         assert title.lower().startswith(words.strip())
-
-
-def test_the_filter_that_the_path_used(found, tmp_path):
-    detection, _ = found
-    with sv.new_recording(tmp_path / "a.rrd", "a") as recording:
-        log_path_bins(recording, detection)
-    read = Read(tmp_path / "a.rrd")
-    centres = read.all(entities.BANK_CHOSEN, "centers")
-    bins = path_bins(detection)
-    assert (bins >= 0).sum() > 0
-    boxes = [one.as_py() for one in centres]
-    drawn = [np.array(one[0]) for one in boxes if one]
-    expected = [cell_box(int(one), detection.bank.bins) for one in bins if one >= 0]
-    for centre, (left, top, right, bottom) in zip(drawn, expected, strict=True):
-        assert centre.tolist() == [(left + right) / 2, (top + bottom) / 2]
-    for column, one in enumerate(bins):
-        row = int(detection.skyline.rows[column])
-        assert (one >= 0) == detection.edges[row, column]
 
 
 @pytest.mark.parametrize("fidelity", ["lean", "full"])

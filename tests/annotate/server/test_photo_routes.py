@@ -1,6 +1,7 @@
 """Routes of one photo: what they show, and that a preview changes nothing."""
 
 import numpy as np
+import pytest
 
 from testing.detections import unseen
 from testing.labelling import asked, served, write_hills
@@ -40,6 +41,21 @@ def test_alternatives_run_through_other_rows_the_cheapest_first(client):
     assert client.get("/api/photos/3/alternatives/70").status_code == 422
 
 
+def test_a_pixel_is_explained_down_to_its_patch_and_terms(client):
+    row = client.get("/api/photos/3").json()["rows"][40]
+    told = client.get(f"/api/photos/3/pixels/40/{row}").json()
+    assert (told["row"], told["column"], told["edge"]) == (row, 40, True)
+    assert sum(told["terms"].values()) == pytest.approx(told["cost"], abs=1e-4)
+    filtered = told["filtered"]
+    assert filtered["score"] == pytest.approx(told["score"])
+    np.testing.assert_allclose(
+        np.array(filtered["patch"]) * filtered["taps"] / 255, filtered["product"], atol=1e-5
+    )
+    refused = client.get("/api/photos/3/pixels/40/9999")
+    assert refused.status_code == 422
+    assert refused.json()["detail"].startswith("there is no pixel in row 9999")
+
+
 def test_undo_and_redo_go_back_and_forth(client):
     first = operate(client, 3, kind="anchor", column=9, row=9)
     operate(client, 3, kind="anchor", column=50, row=9)
@@ -54,6 +70,7 @@ def test_a_blind_photo_has_no_recording(tmp_path):
         answer = client.get("/api/photos/1/recording")
         assert answer.status_code == 403
         assert "labelled blind" in answer.json()["detail"]
+        assert client.get("/api/photos/1/pixels/3/3").status_code == 403
         assert client.get("/api/photos/1/alternatives/3").json() == {"alternatives": []}
 
 
