@@ -36,7 +36,7 @@ def table(found: Sequence[Diagnosed]) -> str:
         counts = str(one.photos), str(one.segments), f"{one.columns:,}"
         rows.append([one.title, *counts, f"{one.error / total:.0%}", f"{one.a_err:.2f} px"])
     wrong = sum(not one.diagnosis.right for one in found)
-    head = ["cause", "photos", "segments", "columns", "share of their error", "A_err it costs"]
+    head = ["cause", "photos", "segments", "columns", "share of their error", "A_err"]
     return f"{len(found) - wrong} right, {wrong} with wrong segments\n{_drawn(head, rows)}"
 
 
