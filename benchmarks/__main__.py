@@ -24,6 +24,7 @@ from benchmarks import (
     clicks,
     filters,
     labelling,
+    mended,
     methods,
     recordings,
     robustness,
@@ -76,6 +77,7 @@ def _parts(
         parts["cameras"] = lambda: cameras.measured(data, models, networks)
         parts["accuracy"] = lambda: accuracy.cross_validated(web, sky) + _sky_told(unseen)
         parts["robustness"] = lambda: robustness.varied(web, sky) + _sky_told(unseen)
+        parts["mended"] = lambda: mended.measured(data, models)
         parts["filters"] = lambda: filters.studies(data, sky)
         parts["methods"] = lambda: methods.compared(web, sky) + _sky_told(unseen)
         parts["visibility"] = lambda: visibility.denied([web, *others], Models(models))

@@ -8,9 +8,19 @@ from time import process_time
 from benchmarks.table import markdown
 from skyline_viz.datasets.layouts import open_dataset
 from skyline_viz.detector import Detector
-from skyline_viz.diagnosis.causes import CAUSES
+from skyline_viz.diagnosis.causes import CAUSES, PLACES
 from skyline_viz.diagnosis.diagnosing import diagnose
-from testing.injected import CONSULTED, FAMILIAR, MAKERS, UNSEEN, Injected, cases, main_cause
+from testing.injected import (
+    CONSULTED,
+    FAMILIAR,
+    MAKERS,
+    NEW,
+    PLACE_MAKERS,
+    UNSEEN,
+    Injected,
+    cases,
+    main_cause,
+)
 
 EACH = 40
 """Cases of each cause."""
@@ -26,6 +36,7 @@ def confusion(each: int = EACH) -> str:
             _matrix(UNSEEN, each, "Scenes that were first used when the rules stood"),
             _matrix(CONSULTED, each, "Scenes by which the rules were checked while being made"),
             _matrix(FAMILIAR, each, "The scenes by which the rules were made"),
+            _places(NEW, each, "Places, painted into scenes that were first used for this"),
             _dearest(),
         ]
     )
@@ -50,6 +61,24 @@ def _matrix(first_scene: int, each: int, title: str) -> str:
         f"are proved: with just what is named made right, the path comes back. A diagnosis takes "
         f"{statistics.median(costs):.1f} times as long as the detection (median; at most "
         f"{max(costs):.1f})."
+    )
+
+
+def _places(first_scene: int, each: int, title: str) -> str:
+    rows, right, named = [], 0, 0
+    for place in PLACE_MAKERS:
+        said = Counter()
+        for one in cases(place, each, first_scene):
+            segment = main_cause(one)
+            said[segment.place] += 1
+            named += bool(segment.terms and segment.proof)
+        right += said[place]
+        rows.append([place, *(str(said[other] or "") for other in (*PLACES, None))])
+    total = each * len(PLACE_MAKERS)
+    table = markdown(["painted \\ diagnosed", *PLACES, "none"], rows)
+    return (
+        f"{title}:\n\n{table}\n\nThe place is right in {right} of {total} ({right / total:.1%}). "
+        f"In {named} a proved cause names a term."
     )
 
 

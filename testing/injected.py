@@ -1,4 +1,4 @@
-"""Failures of a known cause, put into rendered scenes that the detector gets right."""
+"""Failures of a known cause or place, put into rendered scenes that the detector gets right."""
 
 from dataclasses import dataclass, replace
 from functools import cache
@@ -12,7 +12,9 @@ from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline
+from testing import injected_places
 from testing.detections import WITHOUT_SKY
+from testing.injected_places import span
 
 KINDS = ("clear", "desert", "cloudy", "rover")
 SIZE = (640, 360)
@@ -20,9 +22,11 @@ SCENES = 40  # that are varied
 FAMILIAR = 1000  # first of the scenes that the rules were made with
 CONSULTED = 7000  # of those by which the rules were checked while they were being made
 UNSEEN = 31000  # of those that were first used when the rules stood
+NEW = 47000  # of those that were first used when the rules of places stood
 TRIES = 60  # for each case that is asked for
 DETECTOR = WITHOUT_SKY  # which would mend what is injected
 BY_SCORE = replace(DETECTOR.config, v=0.95, clear_sky=0.0)
+WITH_FRAMES = replace(DETECTOR.config, frame=0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,18 +68,22 @@ def inject(cause, seed, first_scene):
     """A failure of a cause; None where the detector stands it, or was wrong there before."""
     random = np.random.default_rng([seed, len(cause), first_scene])
     kind, number = KINDS[seed % len(KINDS)], first_scene + seed % SCENES
-    config = BY_SCORE if cause in ("starved bin", "misjudged") else DETECTOR.config
+    settings = {"starved bin": BY_SCORE, "misjudged": BY_SCORE, "frame": WITH_FRAMES}
+    config = settings.get(cause, DETECTOR.config)
     photo, truth, before = base(kind, number, config)
-    made = MAKERS[cause](random, photo, truth, before)
+    made = (MAKERS | PLACE_MAKERS)[cause](random, photo, truth, before)
     if made is None:
         return None
     changed, truth, bank, (first, last) = made
     off = np.abs(before.skyline.rows - base(kind, number, config)[1].rows)
-    if off.mean() > 4 or off[max(first - 40, 0) : last + 40].max() > 4:
+    near = off[max(first - 40, 0) : last + 40]
+    most = np.percentile(near, 95) if cause in PLACE_MAKERS else near.max()  # these are wide
+    if off.mean() > 4 or most > 4:
         return None  # a photo that was lost before, or a failure where there was one
     detection = Detector(bank, config).detect(changed)
     wrong = np.abs(detection.skyline.rows - truth.rows)[first : last + 1] > 4
-    return Injected(cause, detection, truth, (first, last)) if wrong.sum() >= 8 else None
+    enough = len(wrong) / 3 if cause in PLACE_MAKERS else 8
+    return Injected(cause, detection, truth, (first, last)) if wrong.sum() >= enough else None
 
 
 @cache
@@ -155,6 +163,16 @@ def cheaper_path(random, photo, truth, before):
     return changed, truth, before.bank, (first, last)
 
 
+def at_a_place(paint):
+    """The maker of a failure that is painted into the photo."""
+
+    def make(random, photo, truth, before):
+        changed, columns = paint(random, photo, truth)
+        return changed, truth, before.bank, columns
+
+    return make
+
+
 def truth_doubtful(random, photo, truth, before):
     """The annotation is shifted over a span."""
     first, last = span(random, truth.width, 60, 220)
@@ -162,13 +180,6 @@ def truth_doubtful(random, photo, truth, before):
     rows[first : last + 1] += int(random.integers(6, 13)) * (1 if random.random() < 0.5 else -1)
     shifted = Skyline(rows=rows.clip(0, len(photo) - 1))
     return photo, shifted, before.bank, (first, last)
-
-
-def span(random, width, least, most):
-    """First and last column of a span."""
-    length = int(random.integers(least, most))
-    first = int(random.integers(30, width - 30 - length))
-    return first, first + length - 1
 
 
 MAKERS = {
@@ -179,3 +190,5 @@ MAKERS = {
     "cheaper path": cheaper_path,
     "truth doubtful": truth_doubtful,
 }
+
+PLACE_MAKERS = {place: at_a_place(paint) for place, paint in injected_places.PAINTERS.items()}

@@ -51,7 +51,7 @@ class Diagnose(OnTruth):
         found, failed = diagnosis.diagnose_photos(
             tasks,
             self.tolerance,
-            remedies=not (self.no_remedies or self.photo),
+            remedies=not self.no_remedies,
             workers=workers,
             kept=kept,
         )

@@ -26,7 +26,7 @@ from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import Folder, Switch, check_picture
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
-from skyline_viz.diagnosis.causes import Cause
+from skyline_viz.diagnosis.causes import Cause, Place, Preferring, filter_words
 from skyline_viz.running.batch import Failure
 from skyline_viz.system.aftermath import ended
 from skyline_viz.system.endings import told_by_signals
@@ -61,9 +61,11 @@ class GalleryCommand:
     out: Folder = Path("skyline-gallery")
     """Folder of the gallery: recordings, gallery.json, flags.json. What is there is not redone."""
 
-    cause: Annotated[Cause | None, tyro.conf.arg(metavar="CAUSE")] = None
+    cause: Annotated[Cause | Place | Preferring | None, tyro.conf.arg(metavar="CAUSE")] = None
     """Show only photos that went wrong by this cause, in any of their failing segments: truth
-    doubtful, missed edge, starved bin, misjudged, too steep or cheaper path."""
+    doubtful, missed edge, starved bin, misjudged, too steep or cheaper path; at this place: cloud
+    above, haze, wire, snow, frame or foreground ridge; or because this term of the cost prefers
+    another line: score, strength, no edge, clear sky, sky or link."""
 
     flag: FlaggedPhotos = ()
     """Mark photos of the gallery as reviewed, by name or file, and print what is said about them;
@@ -116,14 +118,15 @@ class GalleryCommand:
         entries, failures = build(self.out, inputs, method, self.workers, *beside)
         if not entries:
             return status_after(failures) or SOME_FAILED
-        if self.cause and not any(self.cause in (one.causes or ()) for one in entries):
+        words = filter_words(self.cause) if self.cause else ""
+        if words and not any(words in title for one in entries for title in one.titles):
             diagnosed = sum(one.causes is not None for one in entries)
             say(f"none of {counted(diagnosed, 'photo')} with a truth has the cause {self.cause}.")
             return status_after(failures) or SOME_FAILED
         if self.screenshot:
-            show_picture(self.out, entries, self.screenshot, self.cause)
+            show_picture(self.out, entries, self.screenshot, words)
         else:
-            show(self.out, entries, window=not self.serve, cause=self.cause)
+            show(self.out, entries, window=not self.serve, cause=words)
         return status_after(failures)
 
     def _methods(self) -> Sequence[Method]:
@@ -155,7 +158,7 @@ def build(
     return by_need(entries), failures
 
 
-def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: Cause | None = None) -> None:
+def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: str = "") -> None:
     """Serve a gallery, in a window where there is a display, until it is closed or Ctrl-C."""
     from skyline_viz.gallery.flag_page import flag_page
     from skyline_viz.viewer.process import has_display, open_viewer
@@ -180,9 +183,7 @@ def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: Cause | No
             gallery.refresh()
 
 
-def show_picture(
-    out: Path, entries: Sequence[Entry], path: Path, cause: Cause | None = None
-) -> None:
+def show_picture(out: Path, entries: Sequence[Entry], path: Path, cause: str = "") -> None:
     """Draw the cards of a gallery into a file."""
     from skyline_viz.viewer.process import save_picture
 
@@ -248,7 +249,7 @@ def _existing(out: Path) -> Path:
 
 
 @contextmanager
-def _served(out: Path, entries: Sequence[Entry], cause: Cause | None) -> Iterator[ServedGallery]:
+def _served(out: Path, entries: Sequence[Entry], cause: str) -> Iterator[ServedGallery]:
     from skyline_viz.gallery.store import Gallery
     from skyline_viz.gallery.table import served
 

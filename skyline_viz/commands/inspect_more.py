@@ -26,13 +26,15 @@ _WARM = 64  # rows and columns of a detection before the timed one
 def log_diagnosis(
     recording: rr.RecordingStream, found: Detection, truth: Skyline, name: str
 ) -> Diagnosis:
-    """Find out why a detection went wrong, and log it where it did."""
+    """Find out why a detection went wrong and what would mend it, and log it where it did."""
     from skyline_viz.diagnosis.diagnosing import diagnose
+    from skyline_viz.diagnosis.remedies import most_helpful
     from skyline_viz.viewer.diagnosis_recording import log_diagnosis as log_it
 
     diagnosis = diagnose(found, truth)
     if not diagnosis.right:
-        log_it(recording, diagnosis, found, truth, name)
+        mended = most_helpful(found, truth, diagnosis)
+        log_it(recording, diagnosis, found, truth, name, mended=mended)
     return diagnosis
 
 

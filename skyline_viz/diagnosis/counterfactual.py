@@ -1,14 +1,14 @@
 """What the path would be if one thing were different: the proof behind a diagnosis.
 
 A `Case` is a detection beside its truth. Each of its changes makes the truth line what it should
-have been in one respect (edges, scores, slopes), or other lines are taken away, within a few
-columns, and the path is searched again there. Nothing else changes, so what comes back was due to
-that one thing.
+have been in one respect (edges, scores, slopes), or spares it what other lines need not pay, within
+a few columns, and the path is searched again there. Nothing else changes, so what comes back was
+due to that one thing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, TypeAlias, get_args
@@ -16,8 +16,9 @@ from typing import Literal, TypeAlias, get_args
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import F64, Bool, Int
+from skyline_viz.arrays import F32, F64, Bool, Int
 from skyline_viz.detection import Detection
+from skyline_viz.diagnosis.cost_split import CostSplit
 from skyline_viz.edges import edge_index
 from skyline_viz.evaluation.metrics import column_errors, scaled
 from skyline_viz.path import cheapest_end, sweep, trace
@@ -147,12 +148,42 @@ class Case:
         low[on_edge] = detection.scores[self.pixels[on_edge]] < _LOW_SCORE * self.typical[0]
         return within & on_edge & low & (starved if change == "starved bin" else ~starved)
 
-    def barred(self, rows: Int, first: int, last: int) -> Bool:
-        """``(W,)`` columns in which a line is taken away: where it is off around some columns."""
-        start, stop = self.excursion(first, last, rows)
-        within: Bool = np.zeros(self.truth.width, np.bool_)
-        within[start : stop + 1] = True
-        return within & self.away(rows) & self.truth.visible
+    def paid(self, rows: Int) -> CostSplit:
+        """What a line ``(W,)`` pays, see `cost_split.split_cost`."""
+        columns = np.arange(len(rows))
+        maps = self._maps
+        return CostSplit(
+            {
+                term.name: maps[term.name][rows, columns].astype(np.float64)
+                if term.name in maps
+                else term.along(rows)
+                for term in self.detection.cost_model.terms
+            }
+        )
+
+    @cached_property
+    def due(self) -> CostSplit:
+        """What the truth pays."""
+        return self.paid(self.rows)
+
+    def dearer(self, line: Int, first: int, last: int) -> dict[str, F64]:
+        """How much more than a line ``(W,)`` the truth pays, ``(W,)`` term by term.
+
+        It is 0 but where the line is off around some columns, and the truth visible. The column
+        after that counts, too: there the line pays for its way back.
+
+        Args:
+            line: The line.
+            first: First wrong column.
+            last: Last wrong column.
+        """
+        start, stop = self.excursion(first, last, line)
+        off = np.zeros(self.truth.width, np.bool_)
+        off[start : stop + 1] = self.away(line)[start : stop + 1]
+        off[1:] |= off[:-1]
+        off &= self.truth.visible
+        paid = self.paid(line).terms
+        return {term: np.where(off, due - paid[term], 0.0) for term, due in self.due.terms.items()}
 
     def excursion(self, first: int, last: int, rows: Int | None = None) -> tuple[int, int]:
         """Columns from where a line leaves the truth to where it is back, around wrong ones.
@@ -184,7 +215,7 @@ class Case:
         return start, stop if stop >= 0 else self.truth.width - 1
 
     def search(
-        self, changes: Iterable[Change], first: int, last: int, without: Sequence[Int] = ()
+        self, changes: Iterable[Change], first: int, last: int, spared: F64 | None = None
     ) -> tuple[int, Int]:
         """The path with the truth's columns from `first` to `last` made right in some respects.
 
@@ -192,7 +223,7 @@ class Case:
             changes: What is made right.
             first: First column in which it is.
             last: Last one.
-            without: Lines ``(W,)`` that are taken away there, see `barred`.
+            spared: ``(W,)`` what the truth need not pay in each column; nothing unless given.
 
         Returns:
             First column of the part that was searched again, and the rows from there on.
@@ -221,11 +252,9 @@ class Case:
                 reach[links[inside]] = np.maximum(reach[links[inside]], steps[inside])
             else:
                 cost[columns - start, rows] -= self.saved(columns)
-        for line in without:
-            columns = start + np.flatnonzero(self.barred(line, first, last)[start : stop + 1])
-            for away in range(-self.near, self.near + 1):
-                beside = np.clip(line[columns] + away, 0, cost.shape[1] - 1)
-                cost[columns - start, beside] += detection.non_edge_cost
+        if spared is not None:
+            columns = np.arange(start, stop + 1)
+            cost[columns - start, self.rows[columns]] -= spared[columns]
         for column, fixed in ((start, start > 0), (stop, stop < self.truth.width - 1)):
             if fixed or self.right[column]:
                 kept = cost[column - start, self.path_rows[column]]
@@ -244,6 +273,12 @@ class Case:
         wrong = first + np.flatnonzero(self.errors[first : last + 1] > self.tolerance)
         off = np.abs(rows[wrong - start] - self.truth.rows[wrong])
         return float((off <= self.tolerance).mean()) if len(wrong) else 1.0
+
+    @cached_property
+    def _maps(self) -> dict[str, F32]:
+        """Terms that all pixels pay, as maps: several lines are asked what they pay."""
+        terms = self.detection.cost_model.nodal
+        return {term.name: term.map() for term in terms if term.paid_by == "all"}
 
     @cached_property
     def _on_edges(self) -> tuple[Int, Int]:

@@ -11,7 +11,7 @@ from skyline_viz.datasets.item import photo_and_truth
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.diagnosis.record import Diagnosed, pack, unpack
 from skyline_viz.diagnosis.remedies import try_remedies
-from skyline_viz.evaluation.metrics import column_errors
+from skyline_viz.evaluation.metrics import column_errors, is_gross_miss
 from skyline_viz.evaluation.tasks import PhotoTask, run_tasks
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import Codec, Kept
@@ -67,4 +67,6 @@ def diagnose_photo(tolerance: float | None, task: PhotoTask, *, remedies: bool) 
     found = diagnose(detection, truth, tolerance)
     errors = column_errors(detection.skyline, truth)
     tried = try_remedies(detection, truth, found) if remedies else ()
-    return Diagnosed(task.name, float(np.nanmean(errors)), found, tried)
+    a_err = float(np.nanmean(errors))
+    gross = is_gross_miss(a_err, len(photo))
+    return Diagnosed(task.name, a_err, gross, int(truth.visible.sum()), found, tried)

@@ -8,13 +8,17 @@ missed edge     with edges where the truth has none, the path comes back
 starved bin     with typical scores where the truth's bins are starved, it comes back
 misjudged       with typical scores where the truth's bins are well trained, it comes back
 too steep       with the truth's steps allowed and free, it comes back
-cheaper path    nothing of it, alone or together, brings it back; without a few other lines, and
-                with all of it where need be, it does: other lines are simply cheaper
+cheaper path    nothing of it, alone or together, brings it back; if the truth need pay no more for
+                some terms of the cost than other lines do, and with all of it where need be, it
+                does: these terms prefer other lines
 ==============  =================================================================================
 
 The first that holds is the cause. Where only several together bring the path back, the one that
 changes the cost of the truth most is the main cause, and the others contribute. What nothing brings
 back is called a cheaper path, too, and its evidence says that it is not proved.
+
+Each cause names the terms of the cost by which the truth loses, and the place where it begins to,
+see `places`.
 """
 
 from __future__ import annotations
@@ -29,33 +33,15 @@ import numpy as np
 from skyline_viz.arrays import Int
 from skyline_viz.detection import Detection
 from skyline_viz.diagnosis import evidence
-from skyline_viz.diagnosis.causes import Cause
-from skyline_viz.diagnosis.cost_split import CostSplit, split_cost
+from skyline_viz.diagnosis.causes import TERMS, Cause, Place
+from skyline_viz.diagnosis.cost_split import CostSplit
 from skyline_viz.diagnosis.counterfactual import CHANGES, REPAIRED, Case, Change
 from skyline_viz.diagnosis.doubt import doubt_of
+from skyline_viz.diagnosis.places import place_of
+from skyline_viz.diagnosis.trials import Trial, Trials
 from skyline_viz.evaluation.metrics import TOLERANCE, scaled, wrong_segments
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.system.names import named_in_markdown
-
-_MOST_LINES = 8  # that are taken away until the truth is expected back,
-_MOST_SEARCHES = 64  # and as many plain searches at most that this may take as long as
-
-
-@dataclass(frozen=True)
-class Trial:
-    """One counterfactual of a segment."""
-
-    changes: tuple[Cause, ...]
-    """What was made right."""
-
-    columns: int
-    """In how many columns."""
-
-    repaired: float
-    """Share of the segment's wrong columns that are right then."""
-
-    lines: int = 0
-    """How many competing lines were taken away; of trials with ever more, the last is kept."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +66,16 @@ class Segment:
     contributing: tuple[Cause, ...]
     """Causes without which the main one would not have been enough."""
 
+    terms: tuple[str, ...]
+    """The terms of the cost by which the truth loses, that which does most first; nothing where the
+    truth is doubtful, or nothing is proved."""
+
+    place: Place | None
+    """What the photo shows where it begins to."""
+
+    begins: int
+    """First column that shows it; the first one of the segment where there is none."""
+
     evidence: str
     """What was found, in a few sentences."""
 
@@ -101,16 +97,28 @@ class Segment:
     did, the path itself."""
 
     @property
+    def title(self) -> str:
+        """Cause, term and place in a few words."""
+        by = f" by {self.terms[0]}" if self.cause == "cheaper path" and self.terms else ""
+        return f"{self.cause}{by}{f', {self.place}' if self.place else ''}"
+
+    @property
     def length(self) -> int:
         """Number of columns."""
         return self.columns[1] - self.columns[0] + 1
 
     @property
     def proof(self) -> Trial | None:
-        """The trial of exactly these causes that brings the path back; None if there is none."""
+        """The trial of exactly these causes that brings the path back; None if there is none.
+
+        Of a cheaper path it is that of exactly these terms.
+        """
         chosen = {self.cause, *self.contributing}
+        terms = set(self.terms) if self.cause == "cheaper path" else set()
         proofs = (
-            one for one in self.trials if set(one.changes) == chosen and one.repaired >= REPAIRED
+            one
+            for one in self.trials
+            if set(one.changes) == chosen and set(one.terms) == terms and one.repaired >= REPAIRED
         )
         return next(proofs, None)
 
@@ -146,6 +154,11 @@ class Diagnosis:
         return tuple(dict.fromkeys(segment.cause for segment in self.by_error))
 
     @property
+    def titles(self) -> tuple[str, ...]:
+        """The titles of all segments, each once, that of `main` first."""
+        return tuple(dict.fromkeys(segment.title for segment in self.by_error))
+
+    @property
     def said_right(self) -> str:
         """That it is right, in a sentence."""
         return f"Right: no column is off by more than {self.tolerance:.3g} px."
@@ -173,7 +186,7 @@ class Diagnosis:
             first, last = one.columns
             also = f", with {' and '.join(one.contributing)}" if one.contributing else ""
             lines += [
-                f"**{one.cause}{also}**, columns {first} to {last}  ",
+                f"**{one.title}{also}**, columns {first} to {last}  ",
                 f"off by {one.mean_error:.1f} px in the mean, {one.worst_error:.0f} at worst  ",
                 f"{one.evidence}",
                 "",
@@ -204,9 +217,8 @@ def diagnose(detection: Detection, truth: Skyline, tolerance: float | None = Non
     runs = wrong_segments(case.errors, height, allowed)
     if not runs:
         return Diagnosis((), allowed)
-    path = split_cost(detection, detection.skyline.rows.astype(np.int32))
-    ideal = split_cost(detection, case.rows)
-    return Diagnosis(tuple(_explain(case, run, path, ideal) for run in runs), allowed)
+    paid = case.paid(case.path_rows)
+    return Diagnosis(tuple(_explain(case, run, paid) for run in runs), allowed)
 
 
 def checked_tolerance(tolerance: float) -> float:
@@ -220,87 +232,36 @@ def checked_tolerance(tolerance: float) -> float:
     return tolerance
 
 
-class _Trials:
-    """The counterfactuals of a segment, as they are tried."""
-
-    def __init__(self, case: Case, run: tuple[int, int]) -> None:
-        self.case, self.run = case, run
-        self.reach = case.excursion(*run)
-        self.made: list[Trial] = []
-        self.line = (run[0], case.path_rows[run[0] : run[1] + 1])
-        self.lines: dict[tuple[Change, ...], tuple[int, Int]] = {}
-
-    def change(self, *changes: Change) -> float:
-        """Make the truth right in some respects; return the share that comes back."""
-        touched = np.zeros(self.case.truth.width, np.bool_)
-        for change in changes:
-            touched |= self.case.columns_of(change, *self.reach)
-        found = self.case.search(changes, *self.reach)
-        share = self.case.repaired(*found, *self.run)
-        self.made.append(Trial(changes, int(touched.sum()), share))
-        self.lines[changes] = found
-        return share
-
-    def take_lines(self, *changes: Change) -> Trial:
-        """Take competing lines away, one after another, until the truth comes back, or enough."""
-        case = self.case
-        most = max(min(_MOST_LINES, int(_MOST_SEARCHES / self._dearer(changes))), 1)
-        lines = [case.path_rows]
-        found = case.search(changes, *self.reach, lines)
-        while case.repaired(*found, *self.run) < REPAIRED and len(lines) < most:
-            lines.append(case.whole(*found))
-            found = case.search(changes, *self.reach, lines)
-        touched = np.zeros(case.truth.width, np.bool_)
-        for line in lines:
-            touched |= case.barred(line, *self.reach)
-        for change in changes:
-            touched |= case.columns_of(change, *self.reach)
-        share = case.repaired(*found, *self.run)
-        trial = Trial(("cheaper path", *changes), int(touched.sum()), share, len(lines))
-        self.made.append(trial)
-        if share >= REPAIRED:
-            self.line = found
-        return trial
-
-    def _dearer(self, changes: Sequence[Change]) -> float:
-        """How many plain searches one takes as long as in which the truth's steps are allowed."""
-        delta = max(self.case.detection.delta, 1)
-        part = slice(self.reach[0], self.reach[1] + 1)
-        allowed = np.maximum(self.case.steps[part], delta)
-        return float(allowed.mean()) / delta if "too steep" in changes else 1.0
-
-    def against(self, cause: Cause) -> float:
-        """The largest share that came back without a cause being made right."""
-        return max((one.repaired for one in self.made if cause not in one.changes), default=0.0)
-
-
-def _explain(case: Case, run: tuple[int, int], path: CostSplit, ideal: CostSplit) -> Segment:
-    trials = _Trials(case, run)
+def _explain(case: Case, run: tuple[int, int], path: CostSplit) -> Segment:
+    trials = Trials(case, run)
     usable = [one for one in CHANGES if case.columns_of(one, *trials.reach).any()]
     shares = {one: trials.change(one) for one in usable}
-    paid, due = path.totals(*run), ideal.totals(*run)
+    paid, due = path.totals(*run), case.due.totals(*run)
     cause: Cause
     contributing: tuple[Cause, ...] = ()
+    terms: tuple[str, ...] = ()
     if doubt := doubt_of(case, *run):
         cause, share, said = "truth doubtful", doubt.repaired, doubt.evidence
         trials.made.append(Trial((cause,), doubt.columns, share))
     elif chosen := _chosen(usable, shares, trials):
         main = max(chosen, key=lambda one: _effect(case, one, *trials.reach))
         cause, contributing = main, tuple(one for one in chosen if one != main)
+        terms = tuple(dict.fromkeys(TERMS[one] for one in (main, *contributing)))
         trials.line = trials.lines[chosen]
         share = case.repaired(*trials.line, *run)
         found = evidence.changes_found(case, chosen, run, trials.reach)
         said = f"{found} {evidence.changes_helped(share)}"
     else:
         cause = "cheaper path"
-        said = evidence.cheaper_by(paid, due, trials.against(cause))
-        last = trials.take_lines()
-        if last.repaired < REPAIRED and usable:
-            last = trials.take_lines(*usable)
-            contributing = tuple(usable) if last.repaired >= REPAIRED else ()
-        also = usable if len(last.changes) > 1 else []
-        share = last.repaired if last.repaired >= REPAIRED else 0.0
-        said = f"{said} {evidence.lines_taken(last.lines, also, last.repaired)}"
+        costs = evidence.cheaper_by(paid, due, trials.against(cause))
+        terms = trials.preferring(())
+        if not terms and usable:
+            terms = trials.preferring(usable)
+            contributing = tuple(usable) if terms else ()
+        proof = trials.proof(terms, contributing)
+        share = proof.repaired if proof else 0.0
+        said = f"{costs} {evidence.terms_equal(proof)}"
+    there = None if cause == "truth doubtful" else place_of(case, trials.by(terms), *trials.reach)
     errors = case.errors[run[0] : run[1] + 1]
     return Segment(
         columns=run,
@@ -309,7 +270,10 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit, ideal: CostSplit
         total_error=float(np.nansum(errors)),
         cause=cause,
         contributing=contributing,
-        evidence=said,
+        terms=terms,
+        place=there.place if there else None,
+        begins=there.begins if there else run[0],
+        evidence=f"{said} {there.evidence}" if there else said,
         trials=tuple(trials.made),
         margin=max(share - trials.against(cause), 0.0),
         path_cost=paid,
@@ -319,7 +283,7 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit, ideal: CostSplit
 
 
 def _chosen(
-    usable: Sequence[Change], shares: dict[Change, float], trials: _Trials
+    usable: Sequence[Change], shares: dict[Change, float], trials: Trials
 ) -> tuple[Change, ...]:
     """The first change that repairs alone, or the fewest that do together; else none."""
     for one in usable:

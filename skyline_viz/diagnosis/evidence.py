@@ -8,7 +8,8 @@ import numpy as np
 
 from skyline_viz.arrays import Int
 from skyline_viz.detection import Detection
-from skyline_viz.diagnosis.counterfactual import REPAIRED, Case, Change
+from skyline_viz.diagnosis.counterfactual import Case, Change
+from skyline_viz.diagnosis.trials import Trial
 
 
 def changes_found(
@@ -56,19 +57,21 @@ def cheaper_by(paid: Mapping[str, float], due: Mapping[str, float], best: float)
     return f"{costs} No change of the truth alone brings back {helps}."
 
 
-def lines_taken(lines: int, changes: Sequence[Change], share: float) -> str:
-    """What taking competing lines away brought back.
+def terms_equal(proof: Trial | None) -> str:
+    """What came back when the truth paid no more for some terms than other lines.
 
     Args:
-        lines: How many.
-        changes: What of the truth was made right as well.
-        share: Share of the wrong columns that came back.
+        proof: The trial; None where none brought the path back.
     """
-    which = "the path's line" if lines == 1 else f"the {lines} lines that are cheaper"
-    also = f" and with the truth made right ({', '.join(changes)})" if changes else ""
-    if share >= REPAIRED:
-        return f"Without {which}{also}, {share:.0%} of the wrong columns come back."
-    return f"Nothing that was tried brings it back, not even without {which}{also}."
+    if proof is None:
+        return "Nothing that was tried brings it back, not even a truth as cheap as other lines."
+    lines = "the path" if proof.lines == 1 else f"the {proof.lines} lines that are cheaper"
+    changes = proof.changes[1:]
+    also = f" and with the truth made right ({', '.join(changes)})," if changes else ","
+    return (
+        f"With the truth paying no more for {' and '.join(proof.terms)} than {lines}{also} "
+        f"{proof.repaired:.0%} of the wrong columns come back."
+    )
 
 
 def _found(case: Case, change: Change, first: int, last: int) -> str:

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment, Trial
+from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment
 from skyline_viz.diagnosis.remedies import Remedy
+from skyline_viz.diagnosis.trials import Trial
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,6 +19,12 @@ class Diagnosed:
     name: str
     a_err: float
     """In pixels."""
+
+    gross_miss: bool
+    """Whether that is over 5 % of the height."""
+
+    visible: int
+    """Columns in which the truth is visible."""
 
     diagnosis: Diagnosis
     remedies: tuple[Remedy, ...]
@@ -29,6 +36,8 @@ def pack(one: Diagnosed) -> dict[str, Any]:
     return {
         "name": one.name,
         "a_err": one.a_err,
+        "gross_miss": one.gross_miss,
+        "visible": one.visible,
         "tolerance": one.diagnosis.tolerance,
         "segments": [_segment(segment) for segment in one.diagnosis.segments],
         "remedies": [vars(remedy) for remedy in one.remedies],
@@ -46,7 +55,8 @@ def unpack(record: dict[str, Any]) -> Diagnosed:
     segments = tuple(_made(segment) for segment in record["segments"])
     remedies = tuple(Remedy(**remedy) for remedy in record["remedies"])
     diagnosis = Diagnosis(segments, record["tolerance"])
-    return Diagnosed(record["name"], record["a_err"], diagnosis, remedies)
+    told = {name: record[name] for name in ("name", "a_err", "gross_miss", "visible")}
+    return Diagnosed(**told, diagnosis=diagnosis, remedies=remedies)
 
 
 def _segment(segment: Segment) -> dict[str, Any]:
@@ -58,7 +68,10 @@ def _segment(segment: Segment) -> dict[str, Any]:
 
 
 def _made(values: dict[str, Any]) -> Segment:
-    trials = [{**trial, "changes": tuple(trial["changes"])} for trial in values["trials"]]
+    trials = [
+        {**trial, "changes": tuple(trial["changes"]), "terms": tuple(trial["terms"])}
+        for trial in values["trials"]
+    ]
     first, dtype, rows = values["line"]
     first_column, last_column = values["columns"]
     return Segment(
@@ -66,6 +79,7 @@ def _made(values: dict[str, Any]) -> Segment:
             **values,
             "columns": (first_column, last_column),
             "contributing": tuple(values["contributing"]),
+            "terms": tuple(values["terms"]),
             "trials": tuple(Trial(**trial) for trial in trials),
             "line": (first, np.array(rows, dtype)),
         }

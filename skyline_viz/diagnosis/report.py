@@ -6,53 +6,44 @@ import csv
 import json
 import os
 from collections.abc import Iterable, Sequence
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 from rich.table import Table
 
-from skyline_viz.diagnosis.causes import CAUSES
+from skyline_viz.diagnosis.by_cause import by_cause, over_all
 from skyline_viz.diagnosis.record import Diagnosed
-from skyline_viz.diagnosis.remedies import Remedy
+from skyline_viz.diagnosis.remedies import best
 from skyline_viz.evaluation.terminal import drawn
 from skyline_viz.files import replacing, write_text
 from skyline_viz.system.names import printable
 
 _HEADER = (
     "photo", "first", "last", "cause", "contributing", "mean_error", "worst_error",
-    "total_error", "margin", "evidence",
+    "total_error", "margin", "evidence", "terms", "place", "begins",
 )  # fmt: skip
 
 
 def table(found: Sequence[Diagnosed]) -> str:
-    """Causes: photos, segments, columns, and their share of the error in failing segments."""
-    segments = [(one.name, segment) for one in found for segment in one.diagnosis.segments]
-    if not segments:
+    """Causes with their places: photos, segments, columns, and what they cost."""
+    causes = by_cause(found)
+    if not causes:
         return "All are right: no column is off by more than the tolerance."
-    total = sum(segment.total_error for _, segment in segments)
+    total = sum(one.error for one in causes)
     rows = []
-    for cause in CAUSES:
-        mine = [(name, segment) for name, segment in segments if segment.cause == cause]
-        if mine:
-            error = sum(segment.total_error for _, segment in mine)
-            columns = sum(segment.length for _, segment in mine)
-            photos = len({name for name, _ in mine})
-            rows.append(
-                [cause, str(photos), str(len(mine)), f"{columns:,}", f"{error / total:.0%}"]
-            )
-    wrong = len({name for name, _ in segments})
-    right = len(found) - wrong
-    head = ["cause", "photos", "segments", "columns", "share of their error"]
-    return f"{right} right, {wrong} with wrong segments\n{_drawn(head, rows)}"
+    for one in causes:
+        counts = str(one.photos), str(one.segments), f"{one.columns:,}"
+        rows.append([one.title, *counts, f"{one.error / total:.0%}", f"{one.a_err:.2f} px"])
+    wrong = sum(not one.diagnosis.right for one in found)
+    head = ["cause", "photos", "segments", "columns", "share of their error", "A_err"]
+    return f"{len(found) - wrong} right, {wrong} with wrong segments\n{_drawn(head, rows)}"
 
 
 def remedies_table(found: Sequence[Diagnosed]) -> str:
-    """Other settings, tried on all photos, the one that helps most first; nothing without need."""
+    """Other settings, tried on all photos: those that help, and the best one of each cause."""
     total = sum(len(one.diagnosis.segments) for one in found)
-    tried: dict[str, list[Remedy]] = {}
-    for one in found:
-        for remedy in one.remedies:
-            tried.setdefault(remedy.name, []).append(remedy)
+    tried = over_all(found)
     if not total or not tried:
         return ""
     sums = [
@@ -73,6 +64,14 @@ def remedies_table(found: Sequence[Diagnosed]) -> str:
     lines = ["What would help, tried on all photos", _drawn(head, rows)]
     if not any(good for _, good, _, _ in sums):
         lines.append("None of these helps: no wrong segment is repaired.")
+    causes = [(one.title, one.remedy) for one in by_cause(found) if one.remedy]
+    if causes:
+        head = ["main cause of a photo", "best remedy", "A_err of these", "of all", "breaks"]
+        rows = []
+        for title, most in causes:
+            changes = f"{most.change:+.2f} px", f"{most.change_of_all:+.2f} px"
+            rows.append([title, most.name, *changes, str(most.broken)])
+        lines += ["What would help most of each cause", _drawn(head, rows)]
     return "\n".join(lines)
 
 
@@ -86,20 +85,23 @@ def in_full(one: Diagnosed) -> str:
         first, last = segment.columns
         also = f", with {' and '.join(segment.contributing)}" if segment.contributing else ""
         lines += [
-            f"\ncolumns {first} to {last}: {segment.cause}{also}",
+            f"\ncolumns {first} to {last}: {segment.title}{also}",
             f"  off by {segment.mean_error:.1f} px in the mean, {segment.worst_error:.0f} at worst",
             f"  {segment.evidence}",
         ]
         for trial in segment.trials:
             what = " and ".join(trial.changes)
-            if trial.lines:
-                what += f" ({trial.lines} {'line' if trial.lines == 1 else 'lines'} taken away)"
+            if trial.terms:
+                which = "1 line" if trial.lines == 1 else f"{trial.lines} lines"
+                what += f" ({' and '.join(trial.terms)} as cheap as of {which})"
             lines.append(f"  {what}, {trial.columns} columns: {trial.repaired:.0%} come back")
         stages = [
             f"{name} {segment.truth_cost[name] - paid:+.1f}"
             for name, paid in segment.path_cost.items()
         ]
         lines.append(f"  the truth costs more than the path by: {', '.join(stages)}")
+    if helps := best(one.remedies):
+        lines.append(f"\nA_err {helps.a_err:.2f} px with {helps.name}: add {helps.flags}")
     return "\n".join(lines)
 
 
@@ -122,22 +124,26 @@ def write_csv(path: str | os.PathLike[str], found: Iterable[Diagnosed]) -> None:
                 writer.writerow(
                     [one.name, *segment.columns, segment.cause, "; ".join(segment.contributing)]
                     + [f"{number:.3f}" for number in numbers]
-                    + [segment.evidence]
+                    + [segment.evidence, "; ".join(segment.terms), segment.place or ""]
+                    + [str(segment.begins)]
                 )
 
 
-def write_json(path: str | os.PathLike[str], name: str, found: Iterable[Diagnosed]) -> None:
+def write_json(path: str | os.PathLike[str], name: str, found: Sequence[Diagnosed]) -> None:
     """Write everything that is known about each photo."""
     photos = [
         {
             "name": one.name,
             "a_err": one.a_err,
+            "gross_miss": one.gross_miss,
             **one.diagnosis.document(),
             "remedies": [vars(remedy) for remedy in one.remedies],
         }
         for one in found
     ]
-    document = {"format": "skyline-diagnosis", "version": 1, "dataset": name, "photos": photos}
+    causes = [asdict(one) for one in by_cause(found)]
+    head = {"format": "skyline-diagnosis", "version": 1, "dataset": name}
+    document = {**head, "causes": causes, "photos": photos}
     write_text(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
 
 

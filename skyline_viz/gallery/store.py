@@ -42,7 +42,7 @@ from skyline_viz.viewer.diagnosis_recording import log_diagnosis
 from skyline_viz.viewer.recording import log_detection, new_recording
 from skyline_viz.viewer.report import listed_segments
 
-VERSION = 5
+VERSION = 6
 """Of recordings and gallery.json; all of an earlier one are made anew."""
 
 _SAVE_EVERY = 1.0  # seconds
@@ -76,6 +76,10 @@ class Entry:
     causes: tuple[Cause, ...] | None = None
     """Why it went wrong, see `diagnosis.Diagnosis.causes`; nothing where it is right, None without
     a truth."""
+
+    titles: tuple[str, ...] = ()
+    """The causes with the terms and the places that they name, see `diagnosing.Segment.title`, each
+    once, that of the main segment first."""
 
     confidence: float | None = None
     """How surely it has a skyline, see `visibility.Visibility`; None of methods that cannot
@@ -222,11 +226,12 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     other = looks.beside.detect(photo) if looks.beside else None
     with new_recording(file, task.name) as recording:
         verdict = log_detection(recording, detection, truth, name=task.name, fidelity="lean")
-        causes = None
+        causes: tuple[Cause, ...] | None = None
+        titles: tuple[str, ...] = ()
         if truth is not None and verdict.a_err is not None:  # it is visible somewhere
             diagnosis = diagnose(detection, truth)
             log_diagnosis(recording, diagnosis, detection, truth, task.name, fidelity="lean")
-            causes = diagnosis.causes
+            causes, titles = diagnosis.causes, diagnosis.titles
         against: dict[str, Any] = {}
         if other is not None:
             beside = log_comparison(recording, detection, other, truth, other.method, "lean")
@@ -243,6 +248,7 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     about = {
         "method": detection.method,
         "causes": causes,
+        "titles": titles,
         "confidence": detection.confidence,
         "shows": shown.case if shown else None,
         **against,
@@ -259,6 +265,7 @@ def _entry(path: Path, values: dict[str, Any]) -> Entry:
             told["segments"] = tuple((int(a), int(b)) for a, b in told["segments"])
         if values["causes"] is not None:
             values["causes"] = tuple(values["causes"])
+        values["titles"] = tuple(values["titles"])
         stages = tuple(
             Quantity(**{**one, "span": tuple(one["span"]), "tabs": tuple(one["tabs"])})
             for one in values["stages"]

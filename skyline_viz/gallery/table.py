@@ -16,7 +16,6 @@ import pyarrow as pa
 import rerun as rr
 import rerun.blueprint as rrb
 
-from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.gallery.flags import Flag, read_flags
 from skyline_viz.gallery.store import Entry, Gallery
 from skyline_viz.system.aftermath import passing_temporaries
@@ -76,7 +75,7 @@ class ServedGallery:
 
 @contextmanager
 def served(
-    gallery: Gallery, entries: Sequence[Entry], truth: bool, cause: Cause | None = None
+    gallery: Gallery, entries: Sequence[Entry], truth: bool, cause: str = ""
 ) -> Iterator[ServedGallery]:
     """Serve a gallery for as long as the block lasts.
 
@@ -84,7 +83,8 @@ def served(
         gallery: Its files.
         entries: Its photos, in the order in which to show them.
         truth: Whether there is a truth for any of them.
-        cause: Show only those with this cause, by a filter that can be changed in the viewer.
+        cause: Show only those of which a cause says this, by a filter that can be changed in the
+            viewer; empty for all.
 
     Raises:
         ViewerError: This version of Rerun has no cards.
@@ -181,8 +181,8 @@ def _columns(
         "confidence": [_rounded(one.confidence) for one in entries],
         "shows": [one.shows for one in entries],
         "wrong": [entry.wrong or "none" for entry in entries],
-        "cause": [None if one.causes is None else one.cause or "none" for one in entries],
-        "causes": [None if one.causes is None else ", ".join(one.causes) for one in entries],
+        "cause": [_cause(one) for one in entries],
+        "causes": [None if one.causes is None else "; ".join(one.titles) for one in entries],
         "reviewed": [flag.reviewed for flag in said],
         "comment": [shown_in_viewer(flag.comment) for flag in said],
     }
@@ -195,6 +195,13 @@ def _worst(entry: Entry) -> str:
     return f"{verdict.worst_error:.0f} px at {verdict.worst_column}"
 
 
+def _cause(entry: Entry) -> str | None:
+    """The main cause; nothing without a truth."""
+    if entry.causes is None:
+        return None
+    return next(iter(entry.titles), "none")
+
+
 def _rounded(value: float | None) -> float | None:
     return None if value is None else round(value, 2)
 
@@ -202,7 +209,7 @@ def _rounded(value: float | None) -> float | None:
 def _cards(
     tables: Any,  # noqa: ANN401
     truth: bool,
-    cause: Cause | None,
+    cause: str,
     compared: str,
     told: bool,
 ) -> TableBlueprint:

@@ -12,8 +12,10 @@ from skyline_viz.detection import Detection
 from skyline_viz.diagnosis.cost_split import split_cost
 from skyline_viz.diagnosis.counterfactual import Case
 from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment
+from skyline_viz.diagnosis.remedies import Remedy
 from skyline_viz.evaluation.stacked import stacked_columns
 from skyline_viz.skyline import Skyline
+from skyline_viz.system.names import named_in_markdown
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import LINE_RADIUS
 from skyline_viz.viewer.contents import Fidelity
@@ -32,6 +34,7 @@ def log_diagnosis(
     truth: Skyline,
     name: str = "",
     fidelity: Fidelity = "full",
+    mended: tuple[Remedy, Skyline] | None = None,
 ) -> None:
     """Log a diagnosis beside its detection.
 
@@ -43,8 +46,15 @@ def log_diagnosis(
         name: Name of the photo, for the report.
         fidelity: How much to keep; *lean* leaves the stacked costs out, whose picture takes a third
             of a lean recording, and several times as long as the rest.
+        mended: The setting that helps most, and the line with it; None where none does, or nobody
+            has tried.
     """
     text = diagnosis.markdown(name)
+    if mended:
+        remedy, _ = mended
+        flags = named_in_markdown(remedy.flags)
+        text += f"\n**A_err {remedy.a_err:.2f} px** with {named_in_markdown(remedy.name)}.  \n"
+        text += f"To be added: `{flags}`" if flags == remedy.flags else f"To be added: {flags}"
     recording.log(entities.DIAGNOSIS, markdown_document(text))
     if diagnosis.right:
         return
@@ -64,7 +74,7 @@ def log_diagnosis(
     corners = np.array(boxes, np.float32).reshape(-1, 4)
     by_error = sorted(range(len(boxes)), key=lambda at: -diagnosis.segments[at].total_error)
     named = by_error[:_NAMED]
-    causes = [diagnosis.segments[at].cause for at in named]
+    causes = [diagnosis.segments[at].title for at in named]
     for entity, shown, labels in (
         (entities.SEGMENTS, by_error[_NAMED:], None),
         (f"{entities.SEGMENTS}/largest", named, causes),
@@ -85,6 +95,14 @@ def log_diagnosis(
         strips = rr.LineStrips2D(lines, colors=[colour], radii=[-across], draw_order=order)
         recording.log(place, strips)
     _log_truth_pixels(recording, case)
+    if mended:
+        remedy, line = mended
+        points = np.column_stack([np.arange(line.width) + 0.5, line.rows]).astype(np.float32)
+        label = f"{remedy.flags}: A_err {remedy.a_err:.2f} px"
+        mend = rr.LineStrips2D(
+            [points], colors=[ALTERNATIVE], radii=[-1.0], labels=[label], draw_order=43.0
+        )
+        recording.log(entities.REMEDY, mend)
     if fidelity == "lean":
         return
     paid = {

@@ -124,6 +124,9 @@ SEGMENTS = "diagnosis/segments"
 COUNTERFACTUAL = "diagnosis/counterfactual"
 """The path in each segment that comes back when its cause is made right."""
 
+REMEDY = f"{COUNTERFACTUAL}/remedy"
+"""The path with the setting that helps most, with its flags."""
+
 TRUTH_MISSED = "diagnosis/missed"
 """Pixels of the truth without an edge."""
 

@@ -1,16 +1,15 @@
-"""Remedies: which settings are tried, and what counts as repaired and as broken."""
-
-from dataclasses import replace
+"""Remedies: what counts as repaired and as broken, and which one is best."""
 
 import numpy as np
 import pytest
 
 import skyline_viz as sv
 from skyline_viz.diagnosis.diagnosing import diagnose
+from skyline_viz.diagnosis.remedies import Remedy, best, most_helpful, try_remedies
 from skyline_viz.diagnosis.remedies import _broken as broken
-from skyline_viz.diagnosis.remedies import settings_to_try, try_remedies
 from skyline_viz.methods.gradient import GradientCost
 from skyline_viz.skyline import Skyline
+from testing.detections import WITHOUT_SKY, lines_in_the_sky
 
 
 @pytest.fixture(scope="module")
@@ -20,43 +19,13 @@ def photo():
     return photo
 
 
-def test_settings_are_given_with_their_flags(photo):
-    paper = sv.Detector(config=sv.DetectorConfig.paper()).detect(photo)
-    names = list(settings_to_try(replace(paper, thresholds=(50, 220))))
-    assert "edges of the colour photo (--config.edge-source colour)" in names
-    assert "half the Canny thresholds (--config.low-threshold 25 --config.high-threshold 110)" in (
-        names
-    )
-    assert not any("half the link" in name for name in names)  # there is none to be halved
-    assert "the link weight at 0.1 (--config.link-weight 0.1)" in names
-    fitted = settings_to_try(replace(sv.Detector().detect(photo), thresholds=(20, 90)))
-    assert "half the Canny thresholds" in fitted  # those of each photo
-    assert "twice the delta (--config.delta 8)" in fitted
-
-
-def test_every_term_is_tried_with_another_weight(photo):
-    found = sv.Detector().detect(photo)
-    tried = settings_to_try(found).values()
-    for setting in found.cost_model.settings:
-        assert {getattr(one, setting) for one in tried} - {getattr(found.config, setting)}
-
-
-@pytest.mark.parametrize("setting", ["v", "clear_sky", "sky_weight", "link_weight"])
-@pytest.mark.parametrize("most", [False, True])
-def test_tried_settings_stay_in_their_range(photo, setting, most):
-    config = replace(
-        sv.DetectorConfig(), **{setting: {"v": 1, "link_weight": 1e6}.get(setting, 1e3)}
-    )
-    found = sv.Detector(config=config if most else sv.DetectorConfig()).detect(photo)
-    assert settings_to_try(found)  # a configuration beyond its range cannot be made
-
-
 def test_other_methods_have_no_remedies(photo):
     found = GradientCost().detect(photo)
     truth = Skyline(rows=np.full(300, 20))
     assert try_remedies(found, truth, diagnose(found, truth)) == ()
     with pytest.raises(ValueError, match="gradient has other settings"):
         found.again(sv.DetectorConfig())
+    assert most_helpful(found, truth, diagnose(found, truth)) is None
 
 
 def test_nothing_is_repaired_or_broken_in_hidden_columns(photo):
@@ -74,3 +43,20 @@ def test_a_segment_that_grows_by_more_than_half_is_broken():
     assert broken((10, 25), [(10, 19), (40, 49)])
     assert broken((25, 30), [(10, 19), (40, 49)])
     assert not broken((10, 39), [(10, 19), (30, 39)])
+
+
+def test_the_best_remedy_comes_with_its_line_and_its_flags():
+    photo, truth = lines_in_the_sky(1)
+    found = WITHOUT_SKY.detect(photo)
+    diagnosis = diagnose(found, truth)
+    remedy, line = most_helpful(found, truth, diagnosis)
+    assert remedy.change < 0
+    assert remedy.a_err == pytest.approx(sv.a_err(line, truth))
+    assert remedy == min(try_remedies(found, truth, diagnosis), key=lambda one: one.a_err)
+    assert remedy.flags.startswith("--")
+
+
+def test_what_makes_it_worse_is_no_remedy():
+    worse = Remedy("v 1", "--config.v 1", 0, 1, 9.0, 2.0, gross_miss=False)
+    assert best([worse]) is None
+    assert best([]) is None

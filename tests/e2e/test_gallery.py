@@ -91,7 +91,7 @@ def test_cards_tell_what_people_said_and_lead_inside(built):
             until(lambda: says(robot, f"A_err {error}") or says(robot, f"{error} px"))
             assert tab_names(viewer)[-1] == "Diagnosis"
             show_tab(viewer, "Diagnosis")
-            until(lambda: says(robot, entries[0].cause))
+            until(lambda: says(robot, entries[0].titles[0]))
 
 
 def test_the_table_follows_what_is_said_while_it_is_served(built):

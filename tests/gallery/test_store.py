@@ -75,9 +75,11 @@ def test_what_went_wrong_is_diagnosed(photos, tmp_path):
     detection = sv.Detector().detect(sv.read_photo(photos / "images" / "p1.png"))
     assert entries["p1"].cause == cause == sv.diagnose(detection, truth).main.cause
     told = {name: (one.causes, one.cause) for name, one in entries.items() if name != "p1"}
+    (title,) = entries["p1"].titles
+    assert title.startswith(cause)
     right, unknown = ((), None), (None, None)
     assert told == {"p0": right, "p2": right, "p3": unknown, "p4": unknown}
-    for name, says in (("p1", f"**{cause}**"), ("p0", "Right"), ("p3", None), ("p4", None)):
+    for name, says in (("p1", f"**{cause}"), ("p0", "Right"), ("p3", None), ("p4", None)):
         read = Read(gallery.recording(name))
         assert (entities.DIAGNOSIS in read.entities()) == (says is not None)
         assert says is None or says in read.last(entities.DIAGNOSIS, "text").as_py()[0]

@@ -11,7 +11,7 @@ from annotate.work.overlays import overlay, overlays
 from skyline_viz import cost
 from skyline_viz.diagnosis.cost_split import split_cost
 from skyline_viz.diagnosis.diagnosing import diagnose
-from skyline_viz.diagnosis.remedies import settings_to_try
+from skyline_viz.diagnosis.other_settings import settings_to_try
 from skyline_viz.diagnosis.sweep import setting_sweeps
 from skyline_viz.rendering import render
 from skyline_viz.skyline import Skyline

@@ -6,6 +6,7 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.diagnosis.diagnosing import diagnose
+from skyline_viz.diagnosis.remedies import Remedy
 from skyline_viz.skyline import Skyline
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.diagnosis_recording import log_diagnosis
@@ -33,7 +34,7 @@ def test_the_viewer_gets_frames_lines_and_reasons(tmp_path):
     repaired = [one for one in diagnosis.segments if one.cause != "truth doubtful" and one.proof]
     assert len(strips) == len(repaired)
     labels = read.last(f"{entities.SEGMENTS}/largest", "Boxes2D:labels").as_py()
-    assert diagnosis.main.cause in labels
+    assert diagnosis.main.title in labels
     assert diagnosis.causes[0] == diagnosis.main.cause
     assert sorted(diagnosis.causes) == sorted({one.cause for one in diagnosis.segments})
     assert read.array(entities.STACKED_COSTS, "Image:buffer").size > 10_000
@@ -59,3 +60,17 @@ def test_the_viewer_gets_no_line_where_nothing_came_back(hazy, tmp_path):
     half = read.last(f"{entities.SEGMENTS}/largest", "Boxes2D:half_sizes").as_py()
     assert [2 * one[0] for one in half] == [lost.length, 6]
     assert diagnosis.markdown().startswith(f"**{lost.cause}")
+
+
+def test_the_remedy_is_drawn_with_its_flags(tmp_path):
+    photo, truth = detections.lines_in_the_sky(1)
+    found = detections.WITHOUT_SKY.detect(photo)
+    diagnosis = diagnose(found, truth)
+    remedy = Remedy("no link weight", "--config.link-weight 0", 1, 0, 1.5, -9.0, gross_miss=False)
+    with sv.new_recording(tmp_path / "d.rrd", "d") as recording:
+        log_diagnosis(recording, diagnosis, found, truth, mended=(remedy, truth))
+    read = Read(tmp_path / "d.rrd")
+    words = read.last(entities.DIAGNOSIS, "TextDocument:text").as_py()[0]
+    assert "To be added: `--config.link-weight 0`" in words
+    labels = read.last(entities.REMEDY, "LineStrips2D:labels").as_py()
+    assert labels == ["--config.link-weight 0: A_err 1.50 px"]

@@ -1,0 +1,88 @@
+"""A diagnosed data set, cause by cause."""
+
+import numpy as np
+import pytest
+
+from skyline_viz.diagnosis.by_cause import by_cause
+from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment
+from skyline_viz.diagnosis.record import Diagnosed
+from skyline_viz.diagnosis.remedies import Remedy
+from skyline_viz.diagnosis.report import remedies_table, table
+
+
+def segment(cause, error, terms=(), place=None, first=0):
+    return Segment(
+        columns=(first, first + 9),
+        mean_error=error / 10,
+        worst_error=error / 10,
+        total_error=error,
+        cause=cause,
+        contributing=(),
+        terms=terms,
+        place=place,
+        begins=first,
+        evidence="It is so.",
+        trials=(),
+        margin=1.0,
+        path_cost={},
+        truth_cost={},
+        line=(0, np.zeros(10, np.int32)),
+    )
+
+
+def photo(name, segments, **changes):
+    a_err = sum(one.total_error for one in segments) / 100
+    remedies = [
+        Remedy(setting, f"--{setting}", 1, broken, a_err + change, change, a_err + change > 5)
+        for setting, (change, broken) in changes.items()
+    ]
+    return Diagnosed(name, a_err, a_err > 5, 100, Diagnosis(tuple(segments), 4.0), tuple(remedies))
+
+
+CLOUD = segment("cheaper path", 2000.0, ("clear sky", "score"), "cloud above")
+WIRE = segment("cheaper path", 300.0, ("strength",), "wire", first=50)
+
+
+@pytest.fixture
+def found():
+    return [
+        photo("a", [CLOUD, WIRE], off=(-18.0, 0), weak=(-1.0, 0)),
+        photo("b", [WIRE], off=(9.0, 2), weak=(-2.0, 0)),
+        photo("c", [], off=(1.0, 1), weak=(0.0, 0)),
+    ]
+
+
+def test_what_a_cause_costs_is_its_part_of_the_mean_error(found):
+    cloud, wire = by_cause(found)
+    assert cloud.title == "cheaper path by clear sky, cloud above"
+    assert (cloud.term, cloud.place, cloud.photos, cloud.segments) == (
+        "clear sky", "cloud above", 1, 1,
+    )  # fmt: skip
+    assert (wire.title, wire.photos, wire.columns) == ("cheaper path by strength, wire", 2, 20)
+    assert cloud.a_err + wire.a_err == pytest.approx(np.mean([one.a_err for one in found]))
+
+
+def test_the_best_remedy_is_that_of_the_photos_it_is_the_main_cause_of(found):
+    cloud, wire = by_cause(found)
+    off = cloud.remedy
+    assert (off.name, off.photos, off.of, off.change) == ("off", 1, 1, -18)
+    assert (off.broken, off.change_of_all) == (3, pytest.approx(-8 / 3))
+    assert wire.remedy.name == "weak"
+    assert (wire.remedy.photos, wire.remedy.of) == (0, 0)  # a small miss, but no gross one
+
+
+def test_what_helps_nobody_is_no_remedy():
+    (cause,) = by_cause([photo("b", [WIRE], off=(9.0, 2))])
+    assert cause.remedy is None
+    (cause,) = by_cause([photo("b", [WIRE])])
+    assert cause.remedy is None
+    assert by_cause([photo("c", [])]) == []
+
+
+def test_the_tables_say_it(found):
+    said = table(found)
+    assert "1 right, 2 with wrong segments" in said
+    assert "cheaper path by clear sky, cloud above" in said
+    assert "6.67 px" in said
+    assert "What would help most of each cause" in remedies_table(found)
+    assert remedies_table([photo("b", [WIRE])]) == ""
