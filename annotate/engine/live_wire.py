@@ -17,13 +17,14 @@ labelled, too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from annotate.engine.edits import ORIGINS, Edits
+from annotate.engine.guide import Guide
 from annotate.engine.plan import Plan, Run, make_plan
 from annotate.engine.tables import BACKWARD, FORWARD, Tables
 from skyline_viz.arrays import F32, F64, U8, Int, check_photo
@@ -116,6 +117,8 @@ class LiveWire:
             rows = None
         elif (moved := edits.one_anchor_after(self._edits)) is not None:
             rows = self._through(*moved)
+        elif edits.strokes[:-1] == self._edits.strokes and edits.strokes:
+            rows = self._guided(edits, plan)
         else:
             rows = self._solved(plan)
         self._edits, self._plan, self._rows = edits, plan, rows
@@ -183,6 +186,26 @@ class LiveWire:
         """Keep the line out of a stroke of the brush, see `Edits.forbid`."""
         return self._change(lambda edits: edits.forbid(points, radius, allow=allow))
 
+    def guide(
+        self,
+        points: Sequence[tuple[int, int]],
+        radius: int | None = None,
+        times: Sequence[int] = (),
+    ) -> Skyline:
+        """Let the line snap to the cheapest path along a rough stroke, and return it.
+
+        Args:
+            points: Column and row of each vertex of the stroke, in its order.
+            radius: What the hand is uncertain by, in pixels; see `Edits.guide_radius`.
+            times: When each vertex was reached, in milliseconds: a fast hand is less certain.
+
+        Raises:
+            EditError: Outside the photo.
+            PathError: No line leads from the guide to what is fixed beside it, or the photo is
+                labelled blind, and no line can snap.
+        """
+        return self._change(lambda edits: edits.guide(points, radius, times))
+
     def hide(self, first: int, last: int, *, hidden: bool = True) -> Skyline:
         """Say where the line cannot be seen, see `Edits.hide`."""
         return self._change(lambda edits: edits.hide(first, last, hidden=hidden))
@@ -200,6 +223,16 @@ class LiveWire:
             PathError: Nothing leads there past what is forbidden.
         """
         return self._line(self._through(int(column), int(row), lifted))
+
+    def preview_guide(
+        self,
+        points: Sequence[tuple[int, int]],
+        radius: int | None = None,
+        times: Sequence[int] = (),
+    ) -> Skyline:
+        """The line as it would be with one more guide; nothing changes. See `guide`."""
+        edits = self._edits.guide(points, radius, times)
+        return self._line(self._guided(edits, self._planned(edits)))
 
     def alternatives(self, column: int, most: int = 4) -> list[Alternative]:
         """Other lines through a column: local minima of its min-marginals, the cheapest first."""
@@ -233,7 +266,42 @@ class LiveWire:
         self.edits = how(self._edits)
         return self.skyline
 
+    def _guided(self, edits: Edits, plan: Plan) -> Int:
+        """Rows of the line with one more stroke at the end; of a guide only its columns are new.
+
+        All else that the line may do is in the tables as they are, unless the guide takes something
+        away that reaches beyond its columns.
+        """
+        guide, before = edits.strokes[-1], self._plan
+        if (
+            self._rows is None
+            or not isinstance(guide, Guide)
+            or plan.strokes != (*before.strokes, guide)
+        ):
+            return self._solved(plan)
+        beside = np.ones(self.width, np.bool_)
+        beside[guide.first : guide.last + 1] = False
+        if (
+            not np.array_equal(plan.fixed[beside], before.fixed[beside])
+            or not plan.free[~beside].all()
+        ):
+            return self._solved(plan)
+        rows = self._rows.copy()
+        if not self._tables.follow(guide, before, rows):
+            raise PathError("no line leads from the guide to what is fixed beside it.")
+        for column, table, step in (
+            (guide.first, self._tables.forward, -1),
+            (guide.last, self._tables.backward, 1),
+        ):
+            run = before.run_at(column + step)
+            if run is not None:
+                end = run.left + 1 if step < 0 else run.right - 1
+                trace(table, self._tables.reach, self._tables.link_weight, rows, column, end)
+        return rows
+
     def _planned(self, edits: Edits) -> Plan:
+        if self.blind and any(isinstance(one, Guide) for one in edits.strokes):
+            raise PathError("the photo is labelled blind, so a guide has nothing to snap to.")
         return make_plan(edits, None if self.blind else self._delta)
 
     def _line(self, rows: Int) -> Skyline:
@@ -243,15 +311,16 @@ class LiveWire:
         """Rows of the line with one more anchor; walks where the column is free."""
         edits = self._edits if lifted is None else self._edits.remove(lifted)
         anchored = edits.anchor(column, row)  # drops the span in which it lies
-        if self.blind:
-            return self._solved(self._planned(anchored))
+        plan = self._planned(anchored)
+        if self.blind or plan.strokes != edits.strokes:  # something is cleared around an anchor
+            return self._solved(plan)
         free = self._planned(anchored.remove(column))
         base = self._rows if free == self._plan else None
         rows = self._solved(free).copy() if base is None else base.copy()
         self.refresh(free)
         run = free.run_at(column)
         if run is None:  # a cliff between two anchors
-            return self._solved(self._planned(anchored))
+            return self._solved(plan)
         rows[column] = row
         self._walk(rows, column, run, self._tables.forward, run.left)
         self._walk(rows, column, run, self._tables.backward, run.right)

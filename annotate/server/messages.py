@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from annotate.engine.edits import ORIGINS, Stroke
+from annotate.engine.guide import Guide
 from annotate.formats import TITLES
 from annotate.store.cards import Card
 from annotate.store.labels import STATUSES, TAGS, Status
@@ -201,6 +202,9 @@ class Document(BaseModel):
     anchors: list[tuple[int, int]]
     spans: list[ShownSpan]
     forbidden: tuple[Stroke, ...]
+    guides: list[tuple[int, int]]
+    """First and last column of each guide."""
+
     can_undo: bool
     can_redo: bool
     undo_what: str | None
@@ -235,7 +239,8 @@ class Document(BaseModel):
             hidden=edits.hidden,
             anchors=sorted(edits.anchors.items()),
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
-            forbidden=edits.strokes,
+            forbidden=tuple(one for one in edits.strokes if isinstance(one, Stroke)),
+            guides=[one.columns for one in edits.strokes if isinstance(one, Guide)],
             can_undo=bool(state.steps),
             can_redo=bool(state.taken),
             undo_what=spoken(state.steps[-1].change) if state.steps else None,

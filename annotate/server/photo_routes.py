@@ -17,6 +17,7 @@ from annotate.server.messages import (
     ShownAlternative,
     Step,
 )
+from annotate.store.operations import Rough
 from annotate.store.store import StaleError
 from annotate.work.session import Session
 from annotate.work.workbench import Workbench
@@ -51,6 +52,16 @@ def preview(bench: Bench, photo: PhotoId, pixel: Pixel) -> Part:
         wire = session.wire
         rows = wire.preview(pixel.column, pixel.row, pixel.lifted).rows.astype(int)
         return Part.of(rows, None if wire.empty else wire.skyline.rows.astype(int))
+
+
+@router.post("/guide")
+def guide(bench: Bench, photo: PhotoId, stroke: Rough) -> Part:
+    """The part of the line that a guide along a rough stroke would change."""
+    session = bench.session(photo)
+    with session.lock:
+        wire = session.wire
+        line = wire.preview_guide(stroke.points, stroke.radius, stroke.times)
+        return Part.of(line.rows.astype(int), None if wire.empty else wire.skyline.rows.astype(int))
 
 
 @router.get("/alternatives/{column}")

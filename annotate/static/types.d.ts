@@ -39,6 +39,7 @@ export interface Document {
   anchors: [number, number][];
   spans: ShownSpan[];
   forbidden: Stroke[];
+  guides: [number, number][];
   can_undo: boolean;
   can_redo: boolean;
   undo_what: string | null;
@@ -61,6 +62,14 @@ export interface Forbid {
   points: [number, number][];
   radius: number;
   allow?: boolean;
+}
+
+/** The line lies along a rough stroke. */
+export interface Guide {
+  points: [number, number][];
+  radius?: number | null;
+  times?: number[];
+  kind: "guide";
 }
 
 /** The line cannot be seen in some columns, or can be seen again. */
@@ -142,6 +151,13 @@ export interface Release {
 export interface RemoveAnchor {
   kind: "remove";
   column: number;
+}
+
+/** A rough stroke, along which the line snaps. */
+export interface Rough {
+  points: [number, number][];
+  radius?: number | null;
+  times?: number[];
 }
 
 /** The line passes through a pixel. */
@@ -241,6 +257,7 @@ export type Operation =
   | MoveAnchor
   | RemoveAnchor
   | Forbid
+  | Guide
   | Straight
   | Draw
   | Hide
