@@ -11,12 +11,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import numba
 import numpy as np
 
 from skyline_viz.arrays import F64, Int
 
 _FAST = 40.0  # radii a second: a hand that moves so fast is led by a disc of twice the radius
+_BESIDE = 4.0  # pixels that a guide is wide to either side where it chooses a line
+_MOST = 5000  # points of a stroke, as operations take them
 
 
 @dataclass(frozen=True)
@@ -103,6 +106,21 @@ def guide_along(
     _lead(vertices[:, 0] - first, vertices[:, 1].copy(), radii, tops, bottoms)
     tops, bottoms = np.rint(tops).clip(0, height - 1), np.rint(bottoms).clip(0, height - 1)
     return Guide(first, tuple(tops.astype(int).tolist()), tuple(bottoms.astype(int).tolist()))
+
+
+def along(rows: Int) -> tuple[list[tuple[int, int]], int]:
+    """Points and radius of a guide that chooses a line ``(W,)``: no point a column, few are enough.
+
+    Examples:
+        >>> along(np.array([5, 6, 7, 8, 8, 8]))
+        ([(0, 5), (5, 8)], 4)
+    """
+    line = np.column_stack([np.arange(len(rows)), rows]).astype(np.int32)
+    for within in (_BESIDE / 2, _BESIDE, 2 * _BESIDE, 4 * _BESIDE):
+        points = cv2.approxPolyDP(line.reshape(-1, 1, 2), within, closed=False).reshape(-1, 2)
+        if len(points) <= _MOST:
+            break
+    return [(int(column), int(row)) for column, row in points], int(2 * within)
 
 
 def radii_of(vertices: F64, radius: float, times: Sequence[int]) -> F64:

@@ -8,7 +8,7 @@ from the left and from the right, are kept for each run of free columns:
 - an anchor leaves the tables on its far sides valid: only the run in which it lies is swept again,
   and only when the next question is asked;
 - the line itself needs the table from the left alone: the other one waits for the next preview;
-- their sum tells the min-marginals: margins, and other lines through the same column. Margins are
+- their sum tells the min-marginals, and those the margins, which are
   measured when somebody asks for them, a piece at a time, so that a click need not wait for all.
 
 Two anchors that are steeper than `delta` allows are joined by a straight line: a cliff can be
@@ -18,7 +18,7 @@ labelled, too.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -28,22 +28,12 @@ from annotate.engine.guide import Guide
 from annotate.engine.plan import Plan, Run, make_plan
 from annotate.engine.tables import BACKWARD, FORWARD, Tables
 from skyline_viz.arrays import F32, F64, U8, Int, check_photo
-from skyline_viz.constraints import Anchor, PathError, StraightSpan
+from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
 from skyline_viz.detection import Detection
+from skyline_viz.diagnosis.other_lines import OtherLine, other_lines
 from skyline_viz.method import Method
-from skyline_viz.path import APART, cheapest_end, trace
+from skyline_viz.path import cheapest_end, trace
 from skyline_viz.skyline import Skyline
-
-
-@dataclass(frozen=True)
-class Alternative:
-    """Another line: the cheapest one through a pixel of a column."""
-
-    row: int
-    """Row of that pixel."""
-
-    detour: float
-    """How much dearer than the current line it is."""
 
 
 class LiveWire:
@@ -234,28 +224,20 @@ class LiveWire:
         edits = self._edits.guide(points, radius, times)
         return self._line(self._guided(edits, self._planned(edits)))
 
-    def alternatives(self, column: int, most: int = 4) -> list[Alternative]:
-        """Other lines through a column: local minima of its min-marginals, the cheapest first."""
+    def alternatives(self, most: int = 4) -> list[OtherLine]:
+        """Whole lines along other ridges under what has been asked for, the cheapest first."""
         if self._rows is None or self.blind:
             return []
-        row = int(self._rows[column])
-        plan = self._planned(self._edits.anchor(column, row).remove(column))
-        self.refresh(plan)
-        if not plan.free[column]:
-            return []
-        through = self._tables.min_marginals(column)
-        apart = max(APART, self.height // 100)
-        found: list[Alternative] = []
-        best = through[row]
-        padded = np.concatenate([[np.inf], through, [np.inf]])
-        lowest = (through <= padded[:-2]) & (through <= padded[2:]) & np.isfinite(through)
-        for candidate in sorted(np.flatnonzero(lowest).tolist(), key=lambda one: through[one]):
-            taken = [row, *(one.row for one in found)]
-            if all(abs(candidate - one) > apart for one in taken):
-                found.append(Alternative(candidate, max(float(through[candidate] - best), 0.0)))
-            if len(found) == most:
-                break
-        return found
+        cost, plan = self._tables.costs_for(self._plan), self._plan
+        fixed = [Anchor(at, int(plan.fixed[at])) for at in np.flatnonzero(~plan.free).tolist()]
+        steep = [
+            StraightSpan(one, other)
+            for one, other in pairwise(fixed)
+            if other.column == one.column + 1 and abs(other.row - one.row) > self._delta
+        ]
+        constraints = Constraints(tuple(fixed), tuple(steep)) if fixed else None
+        weight = self._tables.link_weight
+        return other_lines(cost, self._delta, weight, self._rows, constraints, most)
 
     def refresh(self, plan: Plan | None = None) -> None:
         """Bring the tables up to date: what would else be done when the next question is asked."""

@@ -76,11 +76,13 @@ class Tables:
         for job in jobs:
             job.result()
 
-    def min_marginals(self, column: int) -> F64:
-        """``(H,)`` cost of the cheapest line through each pixel of a column, up to a constant."""
-        through = np.empty(self._cost.shape[1])
-        min_marginals(self.forward[column], self.backward[column], self.allowed[column], through)
-        return through
+    def costs_for(self, plan: Plan) -> F32:
+        """``(H, W)`` costs under a plan: infinite where it forbids, as they are where it fixes."""
+        self._paint(plan.strokes)
+        columns: F32 = self.allowed.copy()
+        fixed = np.flatnonzero(~plan.free)
+        columns[fixed] = self._cost[fixed]
+        return columns.T
 
     def follow(self, guide: Guide, plan: Plan, rows: Int) -> bool:
         """Fill in the rows of the cheapest line through a guide, and say whether there is one.

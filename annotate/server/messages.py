@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from annotate.engine.edits import ORIGINS, Stroke
-from annotate.engine.guide import Guide
+from annotate.engine.guide import Guide, along
 from annotate.formats import TITLES
 from annotate.store.cards import Card
 from annotate.store.labels import STATUSES, TAGS, Status
@@ -18,6 +18,7 @@ from annotate.work.images import BAND, TILE
 from annotate.work.session import Session
 from annotate.work.workbench import Progress
 from skyline_viz.arrays import F64, Int
+from skyline_viz.diagnosis.other_lines import OtherLine
 from skyline_viz.overlay import ALTERNATIVE, ANCHOR, HALO, PATH, css
 from skyline_viz.system.memory import photo_limit
 
@@ -291,14 +292,33 @@ class Margins(BaseModel):
 
 
 class ShownAlternative(BaseModel):
-    """Another line through a column."""
+    """A line along another ridge. A guide along its points, with its radius, chooses it."""
 
-    row: int
+    rows: list[int]
     detour: float
+    """How much dearer than the line as it is."""
+
+    apart: float
+    """Share of columns in which it follows another ridge."""
+
+    points: list[tuple[int, int]]
+    radius: int
+
+    @classmethod
+    def of(cls, line: OtherLine) -> ShownAlternative:
+        """Show a line."""
+        points, radius = along(line.rows)
+        return cls(
+            rows=line.rows.tolist(),
+            detour=round(line.detour, 4),
+            apart=round(line.apart, 4),
+            points=points,
+            radius=radius,
+        )
 
 
 class Alternatives(BaseModel):
-    """Other lines through a column, the cheapest first."""
+    """Lines along other ridges, the cheapest first."""
 
     alternatives: list[ShownAlternative]
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from fastapi import APIRouter, HTTPException, Response
 
-from annotate.server.dependencies import Bench, Column, PhotoId
+from annotate.server.dependencies import Bench, PhotoId
 from annotate.server.messages import (
     Alternatives,
     Apply,
@@ -64,17 +64,13 @@ def guide(bench: Bench, photo: PhotoId, stroke: Rough) -> Part:
         return Part.of(line.rows.astype(int), None if wire.empty else wire.skyline.rows.astype(int))
 
 
-@router.get("/alternatives/{column}")
-def alternatives(bench: Bench, photo: PhotoId, column: Column) -> Alternatives:
-    """Other lines through a column."""
+@router.get("/alternatives")
+def alternatives(bench: Bench, photo: PhotoId) -> Alternatives:
+    """Whole lines along other ridges."""
     session = bench.session(photo)
-    if column >= session.photo.width:
-        raise HTTPException(422, f"the photo has {session.photo.width} columns.")
     with session.lock:
-        found = session.wire.alternatives(column)
-    return Alternatives(
-        alternatives=[ShownAlternative(row=one.row, detour=one.detour) for one in found]
-    )
+        found = session.wire.alternatives()
+    return Alternatives(alternatives=[ShownAlternative.of(one) for one in found])
 
 
 @router.post("/operations")

@@ -4,7 +4,7 @@
  * Written by `python -m tools.page_types` from the server's models; do not edit it by hand.
  */
 
-/** Other lines through a column, the cheapest first. */
+/** Lines along other ridges, the cheapest first. */
 export interface Alternatives {
   alternatives: ShownAlternative[];
 }
@@ -186,10 +186,13 @@ export interface Sheet {
   pages: number;
 }
 
-/** Another line through a column. */
+/** A line along another ridge. A guide along its points, with its radius, chooses it. */
 export interface ShownAlternative {
-  row: number;
+  rows: number[];
   detour: number;
+  apart: number;
+  points: [number, number][];
+  radius: number;
 }
 
 /** A format in which labels leave. */
