@@ -39,6 +39,13 @@ edits = st.one_of(
             "allow": st.booleans(),
         }
     ),
+    st.fixed_dictionaries(
+        {
+            "kind": st.just("guide"),
+            "points": st.lists(st.tuples(columns, rows), min_size=1, max_size=3),
+            "radius": st.integers(1, 5),
+        }
+    ),
 )
 statuses = st.sampled_from(["to do", "in progress", "accepted", "needs review", "rejected"])
 others = st.one_of(

@@ -9,12 +9,13 @@ from pathlib import Path
 from pydantic import TypeAdapter
 
 from annotate.server import messages
+from annotate.store.operations import Rough
 from annotate.work.learning import Learning
 
 PLACE = Path(__file__).parents[1] / "annotate" / "static" / "types.d.ts"
 """Where the types are."""
 
-ASKED = (messages.Apply, messages.Step, messages.Pixel)
+ASKED = (messages.Apply, messages.Step, messages.Pixel, Rough)
 ANSWERED = (
     messages.Legend,
     messages.PhotoList,

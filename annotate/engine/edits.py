@@ -3,23 +3,27 @@
 `Edits` is a value: each change gives a new one, and the order of changes does not need to be known
 to solve it. Where two changes contradict each other, the later one holds: an anchor takes the place
 of the straight span in whose columns it lies, and of a piece of a drawn one; a span takes the place
-of anchors and cuts other spans. Anchors and spans are stronger than the brush, which only steers
-what is solved.
+of anchors and cuts other spans; a guide takes the place of both. Anchors and spans are stronger
+than the brush and guides, which only steer what is solved: what they forbid is allowed again around
+an anchor, see `clearings`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import Literal, get_args
+from typing import Literal, TypeAlias, get_args
 
 import cv2
 import numpy as np
 
+from annotate.engine.guide import Guide, guide_along
 from skyline_viz.arrays import Bool, runs
 from skyline_viz.constraints import Anchor, StraightSpan
+
+_AROUND = 4  # pixels that are cleared around an anchor, beyond what it takes to get there
 
 SpanKind = Literal["straight", "drawn"]
 """How a span came about: a straight line between two pixels, or drawn by hand."""
@@ -78,6 +82,21 @@ class Stroke:
         across = [column for column, _ in self.points]
         return min(across) - self.radius - 1, max(across) + self.radius + 1
 
+    @cached_property
+    def rows(self) -> tuple[int, int]:
+        """First and last row that it may touch."""
+        down = [row for _, row in self.points]
+        return min(down) - self.radius - 1, max(down) + self.radius + 1
+
+    def may_forbid(self, column: int, row: int) -> bool:
+        """Whether it may forbid a pixel: a quick look at what lies far off."""
+        (left, right), (top, bottom) = self.columns, self.rows
+        return not self.allow and left <= column <= right and top <= row <= bottom
+
+
+Steering: TypeAlias = Stroke | Guide
+"""What steers the line: it forbids pixels, and allows others again."""
+
 
 @dataclass(frozen=True)
 class Edits:
@@ -91,8 +110,8 @@ class Edits:
     spans: tuple[Span, ...] = ()
     """Columns with fixed rows; no two of them share a column."""
 
-    strokes: tuple[Stroke, ...] = ()
-    """Strokes of the brush and of its eraser, in their order."""
+    strokes: tuple[Steering, ...] = ()
+    """Strokes of the brush and of its eraser, and guides, in their order."""
 
     hidden: tuple[tuple[int, int], ...] = ()
     """First and last column of each run in which the line cannot be seen, from left to right."""
@@ -100,7 +119,7 @@ class Edits:
     def anchor(self, column: int, row: int) -> Edits:
         """Let the line pass through a pixel."""
         self._require_inside(column, row)
-        around = max(self.width // 50, 8)
+        around = self._around
         spans: list[Span] = []
         for span in self.spans:
             if not span.first <= column <= span.last:
@@ -149,6 +168,43 @@ class Edits:
             raise EditError("the stroke lies outside the photo.")
         return self._with(strokes=(*self.strokes, stroke))
 
+    def guide(
+        self,
+        points: Sequence[tuple[int, int]],
+        radius: int | None = None,
+        times: Sequence[int] = (),
+    ) -> Edits:
+        """Let the line lie along a rough stroke, see `guide.guide_along`.
+
+        Args:
+            points: Column and row of each vertex of the stroke, in its order.
+            radius: What the hand is uncertain by, in pixels; `guide_radius` unless given.
+            times: When each vertex was reached, in milliseconds; empty where nobody knows.
+        """
+        radius = self.guide_radius if radius is None else radius
+        if not len(points) or radius < 1:
+            raise EditError("a guide has at least one point, and a radius of 1 or more.")
+        if len(times) not in (0, len(points)):
+            raise EditError("a guide has a time for each of its points, or none.")
+        guide = guide_along(points, radius, times, (self.height, self.width))
+        if guide is None:
+            raise EditError("the guide lies outside the photo.")
+        around = self._around  # a line leads from the guide to what is left of a span
+        parts = (one.without(guide.first - around, guide.last + around) for one in self.spans)
+        spans = [part for several in parts for part in several]
+        kept = {at: row for at, row in self.anchors.items() if not guide.first <= at <= guide.last}
+        return self._with(anchors=kept, spans=spans, strokes=(*self.strokes, guide))
+
+    @property
+    def _around(self) -> int:
+        """Columns that are free beside something new, so that a line leads there."""
+        return max(self.width // 50, 8)
+
+    @property
+    def guide_radius(self) -> int:
+        """What a hand is uncertain by where nobody says it, in pixels."""
+        return max(self.height // 50, 12)
+
     def hide(self, first: int, last: int, *, hidden: bool = True) -> Edits:
         """Say that the line cannot be seen in columns `first` to `last`, or can be seen again."""
         first, last = self._require_columns(first, last)
@@ -157,11 +213,16 @@ class Edits:
         return self._with(hidden=tuple(runs(mask)))
 
     def release(self, first: int, last: int) -> Edits:
-        """Drop everything asked for in columns `first` to `last`, and strokes that begin there."""
+        """Drop what was asked for in columns `first` to `last`, and strokes that begin there."""
         first, last = self._require_columns(first, last)
         kept = {one: row for one, row in self.anchors.items() if not first <= one <= last}
         spans = [part for span in self.spans for part in span.without(first, last)]
-        strokes = [one for one in self.strokes if not first <= one.points[0][0] <= last]
+        strokes: list[Steering] = []
+        for one in self.strokes:
+            if isinstance(one, Guide):
+                strokes += one.without(first, last)
+            elif not first <= one.points[0][0] <= last:
+                strokes.append(one)
         return self._with(anchors=kept, spans=spans, strokes=strokes).hide(
             first, last, hidden=False
         )
@@ -197,7 +258,7 @@ class Edits:
         self,
         anchors: Mapping[int, int] | None = None,
         spans: Iterable[Span] | None = None,
-        strokes: Iterable[Stroke] | None = None,
+        strokes: Iterable[Steering] | None = None,
         hidden: tuple[tuple[int, int], ...] | None = None,
     ) -> Edits:
         return replace(
@@ -222,21 +283,60 @@ class Edits:
         return max(first, 0), min(last, self.width - 1)
 
 
-def paint(strokes: Iterable[Stroke], height: int, width: int, onto: Bool | None = None) -> Bool:
-    """Pixels that strokes forbid, ``(W, H)``, column by column as path tables are.
+def clearings(edits: Edits) -> tuple[Stroke, ...]:
+    """Strokes of an eraser around anchors that lie where the line must not go.
+
+    They are round, and reach past what is forbidden above or below, so that a line leads to each of
+    them. What is cleared is not kept: it is forbidden again when the anchor is gone.
+    """
+    found = []
+    for column, row in edits.anchors.items():
+        if not any(one.may_forbid(column, row) for one in edits.strokes):
+            continue
+        near = [one for one in edits.strokes if one.columns[0] <= column <= one.columns[1]]
+        forbidden = paint(near, edits.height, edits.width, only=column)[0]
+        if forbidden[row]:
+            allowed = np.flatnonzero(~forbidden)
+            away = int(np.abs(allowed - row).min()) if len(allowed) else edits.height
+            found.append(Stroke(((column, row),), away + away // 2 + _AROUND, allow=True))
+    return tuple(found)
+
+
+def paint(
+    strokes: Iterable[Steering],
+    height: int,
+    width: int,
+    onto: Bool | None = None,
+    *,
+    delta: int = 1,
+    only: int | None = None,
+) -> Bool:
+    """Pixels that strokes and guides forbid, ``(W, H)``, column by column as path tables are.
 
     Args:
-        strokes: The strokes, in their order.
+        strokes: The strokes and guides, in their order.
         height: Rows of the photo.
         width: Its columns.
         onto: Pixels that earlier strokes forbid; it is painted on.
+        delta: Largest change of row between neighbouring columns, in pixels.
+        only: The only column to paint; the result is ``(1, H)`` then.
     """
-    painted: Bool = np.zeros((width, height), np.bool_) if onto is None else onto
+    left, count = (0, width) if only is None else (only, 1)
+    painted: Bool = np.zeros((count, height), np.bool_) if onto is None else onto
     mask = painted.view(np.uint8)
     for stroke in strokes:
+        if isinstance(stroke, Guide):
+            tops, bottoms = stroke.bounds(delta)
+            start, stop = max(stroke.first, left), min(stroke.last + 1, left + count)
+            painted[max(start - left, 0) : max(stop - left, 0)] = True
+            for column in range(start, stop):
+                at = column - stroke.first
+                painted[column - left, tops[at] : bottoms[at] + 1] = False
+            continue
         colour = 0 if stroke.allow else 1
-        points = [(row, column) for column, row in stroke.points]  # x runs down a column here
-        for start, end in zip(points, [*points[1:], points[-1]], strict=True):
-            cv2.line(mask, start, end, colour, 2 * stroke.radius + 1)
-            cv2.circle(mask, end, stroke.radius, colour, -1)
+        # x runs down a column here
+        points = [(row, column - left) for column, row in stroke.points]
+        for start_at, end_at in zip(points, [*points[1:], points[-1]], strict=True):
+            cv2.line(mask, start_at, end_at, colour, 2 * stroke.radius + 1)
+            cv2.circle(mask, end_at, stroke.radius, colour, -1)
     return painted

@@ -8,7 +8,7 @@ from the left and from the right, are kept for each run of free columns:
 - an anchor leaves the tables on its far sides valid: only the run in which it lies is swept again,
   and only when the next question is asked;
 - the line itself needs the table from the left alone: the other one waits for the next preview;
-- their sum tells the min-marginals: margins, and other lines through the same column. Margins are
+- their sum tells the min-marginals, and those the margins, which are
   measured when somebody asks for them, a piece at a time, so that a click need not wait for all.
 
 Two anchors that are steeper than `delta` allows are joined by a straight line: a cliff can be
@@ -17,32 +17,23 @@ labelled, too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
 
 from annotate.engine.edits import ORIGINS, Edits
+from annotate.engine.guide import Guide
 from annotate.engine.plan import Plan, Run, make_plan
 from annotate.engine.tables import BACKWARD, FORWARD, Tables
 from skyline_viz.arrays import F32, F64, U8, Int, check_photo
-from skyline_viz.constraints import Anchor, PathError, StraightSpan
+from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
 from skyline_viz.detection import Detection
+from skyline_viz.diagnosis.other_lines import OtherLine, other_lines
 from skyline_viz.method import Method
-from skyline_viz.path import APART, cheapest_end, trace
+from skyline_viz.path import cheapest_end, trace
 from skyline_viz.skyline import Skyline
-
-
-@dataclass(frozen=True)
-class Alternative:
-    """Another line: the cheapest one through a pixel of a column."""
-
-    row: int
-    """Row of that pixel."""
-
-    detour: float
-    """How much dearer than the current line it is."""
 
 
 class LiveWire:
@@ -116,6 +107,8 @@ class LiveWire:
             rows = None
         elif (moved := edits.one_anchor_after(self._edits)) is not None:
             rows = self._through(*moved)
+        elif edits.strokes[:-1] == self._edits.strokes and edits.strokes:
+            rows = self._guided(edits, plan)
         else:
             rows = self._solved(plan)
         self._edits, self._plan, self._rows = edits, plan, rows
@@ -183,6 +176,26 @@ class LiveWire:
         """Keep the line out of a stroke of the brush, see `Edits.forbid`."""
         return self._change(lambda edits: edits.forbid(points, radius, allow=allow))
 
+    def guide(
+        self,
+        points: Sequence[tuple[int, int]],
+        radius: int | None = None,
+        times: Sequence[int] = (),
+    ) -> Skyline:
+        """Let the line snap to the cheapest path along a rough stroke, and return it.
+
+        Args:
+            points: Column and row of each vertex of the stroke, in its order.
+            radius: What the hand is uncertain by, in pixels; see `Edits.guide_radius`.
+            times: When each vertex was reached, in milliseconds: a fast hand is less certain.
+
+        Raises:
+            EditError: Outside the photo.
+            PathError: No line leads from the guide to what is fixed beside it, or the photo is
+                labelled blind, and no line can snap.
+        """
+        return self._change(lambda edits: edits.guide(points, radius, times))
+
     def hide(self, first: int, last: int, *, hidden: bool = True) -> Skyline:
         """Say where the line cannot be seen, see `Edits.hide`."""
         return self._change(lambda edits: edits.hide(first, last, hidden=hidden))
@@ -201,28 +214,30 @@ class LiveWire:
         """
         return self._line(self._through(int(column), int(row), lifted))
 
-    def alternatives(self, column: int, most: int = 4) -> list[Alternative]:
-        """Other lines through a column: local minima of its min-marginals, the cheapest first."""
+    def preview_guide(
+        self,
+        points: Sequence[tuple[int, int]],
+        radius: int | None = None,
+        times: Sequence[int] = (),
+    ) -> Skyline:
+        """The line as it would be with one more guide; nothing changes. See `guide`."""
+        edits = self._edits.guide(points, radius, times)
+        return self._line(self._guided(edits, self._planned(edits)))
+
+    def alternatives(self, most: int = 4) -> list[OtherLine]:
+        """Whole lines along other ridges under what has been asked for, the cheapest first."""
         if self._rows is None or self.blind:
             return []
-        row = int(self._rows[column])
-        plan = self._planned(self._edits.anchor(column, row).remove(column))
-        self.refresh(plan)
-        if not plan.free[column]:
-            return []
-        through = self._tables.min_marginals(column)
-        apart = max(APART, self.height // 100)
-        found: list[Alternative] = []
-        best = through[row]
-        padded = np.concatenate([[np.inf], through, [np.inf]])
-        lowest = (through <= padded[:-2]) & (through <= padded[2:]) & np.isfinite(through)
-        for candidate in sorted(np.flatnonzero(lowest).tolist(), key=lambda one: through[one]):
-            taken = [row, *(one.row for one in found)]
-            if all(abs(candidate - one) > apart for one in taken):
-                found.append(Alternative(candidate, max(float(through[candidate] - best), 0.0)))
-            if len(found) == most:
-                break
-        return found
+        cost, plan = self._tables.costs_for(self._plan), self._plan
+        fixed = [Anchor(at, int(plan.fixed[at])) for at in np.flatnonzero(~plan.free).tolist()]
+        steep = [
+            StraightSpan(one, other)
+            for one, other in pairwise(fixed)
+            if other.column == one.column + 1 and abs(other.row - one.row) > self._delta
+        ]
+        constraints = Constraints(tuple(fixed), tuple(steep)) if fixed else None
+        weight = self._tables.link_weight
+        return other_lines(cost, self._delta, weight, self._rows, constraints, most)
 
     def refresh(self, plan: Plan | None = None) -> None:
         """Bring the tables up to date: what would else be done when the next question is asked."""
@@ -233,7 +248,42 @@ class LiveWire:
         self.edits = how(self._edits)
         return self.skyline
 
+    def _guided(self, edits: Edits, plan: Plan) -> Int:
+        """Rows of the line with one more stroke at the end; of a guide only its columns are new.
+
+        All else that the line may do is in the tables as they are, unless the guide takes something
+        away that reaches beyond its columns.
+        """
+        guide, before = edits.strokes[-1], self._plan
+        if (
+            self._rows is None
+            or not isinstance(guide, Guide)
+            or plan.strokes != (*before.strokes, guide)
+        ):
+            return self._solved(plan)
+        beside = np.ones(self.width, np.bool_)
+        beside[guide.first : guide.last + 1] = False
+        if (
+            not np.array_equal(plan.fixed[beside], before.fixed[beside])
+            or not plan.free[~beside].all()
+        ):
+            return self._solved(plan)
+        rows = self._rows.copy()
+        if not self._tables.follow(guide, before, rows):
+            raise PathError("no line leads from the guide to what is fixed beside it.")
+        for column, table, step in (
+            (guide.first, self._tables.forward, -1),
+            (guide.last, self._tables.backward, 1),
+        ):
+            run = before.run_at(column + step)
+            if run is not None:
+                end = run.left + 1 if step < 0 else run.right - 1
+                trace(table, self._tables.reach, self._tables.link_weight, rows, column, end)
+        return rows
+
     def _planned(self, edits: Edits) -> Plan:
+        if self.blind and any(isinstance(one, Guide) for one in edits.strokes):
+            raise PathError("the photo is labelled blind, so a guide has nothing to snap to.")
         return make_plan(edits, None if self.blind else self._delta)
 
     def _line(self, rows: Int) -> Skyline:
@@ -243,15 +293,16 @@ class LiveWire:
         """Rows of the line with one more anchor; walks where the column is free."""
         edits = self._edits if lifted is None else self._edits.remove(lifted)
         anchored = edits.anchor(column, row)  # drops the span in which it lies
-        if self.blind:
-            return self._solved(self._planned(anchored))
+        plan = self._planned(anchored)
+        if self.blind or plan.strokes != edits.strokes:  # something is cleared around an anchor
+            return self._solved(plan)
         free = self._planned(anchored.remove(column))
         base = self._rows if free == self._plan else None
         rows = self._solved(free).copy() if base is None else base.copy()
         self.refresh(free)
         run = free.run_at(column)
         if run is None:  # a cliff between two anchors
-            return self._solved(self._planned(anchored))
+            return self._solved(plan)
         rows[column] = row
         self._walk(rows, column, run, self._tables.forward, run.left)
         self._walk(rows, column, run, self._tables.backward, run.right)

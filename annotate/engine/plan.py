@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from annotate.engine.edits import Edits, Stroke
+from annotate.engine.edits import Edits, Steering, clearings
 from skyline_viz.arrays import Bool, Int, read_only, runs
 from skyline_viz.constraints import Anchor, StraightSpan
 
@@ -57,8 +57,8 @@ class Plan:
     """``(W,)`` columns of straight lines between anchors that are too steep to be solved, or that
     are not solved because the photo is labelled blind."""
 
-    strokes: tuple[Stroke, ...]
-    """Where the line must not go."""
+    strokes: tuple[Steering, ...]
+    """Where the line must not go, and where it may again."""
 
     def __eq__(self, other: object) -> bool:
         """Equal fixed rows and strokes: equal problems."""
@@ -121,7 +121,7 @@ class Plan:
 
 
 def painted_between(
-    before: tuple[Stroke, ...], after: tuple[Stroke, ...], width: int
+    before: tuple[Steering, ...], after: tuple[Steering, ...], width: int
 ) -> tuple[int, int] | None:
     """First and last column that some strokes may forbid otherwise than others; None for none."""
     same = 0
@@ -163,4 +163,4 @@ def make_plan(edits: Edits, delta: int | None) -> Plan:
             straight[:first] = straight[last + 1 :] = True
     read_only(fixed)
     read_only(straight)
-    return Plan(fixed, straight, edits.strokes)
+    return Plan(fixed, straight, (*edits.strokes, *clearings(edits)))

@@ -13,9 +13,11 @@ from concurrent.futures import ThreadPoolExecutor
 import numba
 import numpy as np
 
-from annotate.engine.edits import Stroke, paint
+from annotate.engine.corridor import follow
+from annotate.engine.edits import Steering, paint
+from annotate.engine.guide import Guide
 from annotate.engine.plan import Plan, Stale, painted_between
-from skyline_viz.arrays import F32, F64, Bool, runs
+from skyline_viz.arrays import F32, F64, Bool, Int, runs
 from skyline_viz.path import APART, column_margin, min_marginals, sweep
 
 FORWARD, BACKWARD = True, False
@@ -42,13 +44,14 @@ class Tables:
         self.link_weight = float(np.float32(link_weight))
         """Link cost of one pixel of row change, a float32 as nodal costs are: sums of some thousand
         are exact in float64, so that tables do not depend on how they came about."""
+        self._delta = delta
         self.reach = np.full(max(len(cost) - 1, 0), delta, np.int32)
         """``(W - 1,)`` largest change of row on each link."""
         self.forward: F64 = np.empty(cost.shape)
         """``(W, H)`` cost of the cheapest line from the left end of its run to each pixel."""
         self.backward: F64 = np.empty(cost.shape)
         """``(W, H)`` the same from the right end."""
-        self._painted: tuple[Stroke, ...] = ()  # what is forbidden in `allowed`
+        self._painted: tuple[Steering, ...] = ()  # what is forbidden in `allowed`
         self._tabled: dict[bool, Plan | None] = {FORWARD: None, BACKWARD: None}
         self._margins = np.full(len(cost), np.inf)
         self._measured = np.zeros(len(cost), np.bool_)  # columns whose margins are right
@@ -73,11 +76,42 @@ class Tables:
         for job in jobs:
             job.result()
 
-    def min_marginals(self, column: int) -> F64:
-        """``(H,)`` cost of the cheapest line through each pixel of a column, up to a constant."""
-        through = np.empty(self._cost.shape[1])
-        min_marginals(self.forward[column], self.backward[column], self.allowed[column], through)
-        return through
+    def costs_for(self, plan: Plan) -> F32:
+        """``(H, W)`` costs under a plan: infinite where it forbids, as they are where it fixes."""
+        self._paint(plan.strokes)
+        columns: F32 = self.allowed.copy()
+        fixed = np.flatnonzero(~plan.free)
+        columns[fixed] = self._cost[fixed]
+        return columns.T
+
+    def follow(self, guide: Guide, plan: Plan, rows: Int) -> bool:
+        """Fill in the rows of the cheapest line through a guide, and say whether there is one.
+
+        Args:
+            guide: The guide.
+            plan: What holds beside it; tables are brought up to date with it.
+            rows: ``(W,)`` is filled in the guide's columns.
+        """
+        self.sweep_for(plan, FORWARD, BACKWARD)
+        tops, bottoms = guide.bounds(self._delta)
+        before = self._beside(plan, guide.first - 1, self.forward)
+        after = self._beside(plan, guide.last + 1, self.backward)
+        cost = follow(
+            self._cost, tops, bottoms, guide.first, before, after, self._delta, self.link_weight,
+            rows,
+        )  # fmt: skip
+        return bool(np.isfinite(cost))
+
+    def _beside(self, plan: Plan, column: int, table: F64) -> F64:
+        """``(H,)`` costs of a column beside a guide; empty outside the photo."""
+        if not 0 <= column < len(self._cost):
+            return np.empty(0)
+        if plan.free[column]:
+            beside: F64 = table[column]
+            return beside
+        costs = np.full(self._cost.shape[1], np.inf)
+        costs[plan.fixed[column]] = 0.0
+        return costs
 
     def measure(self, plan: Plan, most: int) -> int:
         """Measure the margins of some columns of a plan, and return how many are left then.
@@ -103,7 +137,7 @@ class Tables:
         self.measure(plan, len(self._cost))
         return np.where(plan.free, self._margins, np.inf)
 
-    def _paint(self, strokes: tuple[Stroke, ...]) -> None:
+    def _paint(self, strokes: tuple[Steering, ...]) -> None:
         """Forbid in the costs what strokes forbid, and nothing else."""
         before, asked = self._painted, strokes
         width, height = self._cost.shape
@@ -123,7 +157,7 @@ class Tables:
                 one for one in strokes if one.columns[0] <= last and one.columns[1] >= first
             )
         self.allowed[part] = self._cost[part]
-        self.allowed[part][paint(asked, height, width, mask)[part]] = np.inf
+        self.allowed[part][paint(asked, height, width, mask, delta=self._delta)[part]] = np.inf
         self._painted = strokes
 
     def _sweep(self, part: Stale, tabled: Plan | None, changed: tuple[int, int] | None) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from annotate.engine.edits import ORIGINS, Stroke
+from annotate.engine.guide import Guide, along
 from annotate.formats import TITLES
 from annotate.store.cards import Card
 from annotate.store.labels import STATUSES, TAGS, Status
@@ -18,6 +19,7 @@ from annotate.work.session import Session
 from annotate.work.workbench import Progress
 from skyline_viz.arrays import F64, Int
 from skyline_viz.diagnosis.explanation import Explanation, Filtered
+from skyline_viz.diagnosis.other_lines import OtherLine
 from skyline_viz.overlay import ALTERNATIVE, ANCHOR, HALO, PATH, css
 from skyline_viz.system.memory import photo_limit
 
@@ -202,6 +204,9 @@ class Document(BaseModel):
     anchors: list[tuple[int, int]]
     spans: list[ShownSpan]
     forbidden: tuple[Stroke, ...]
+    guides: list[tuple[int, int]]
+    """First and last column of each guide."""
+
     can_undo: bool
     can_redo: bool
     undo_what: str | None
@@ -236,7 +241,8 @@ class Document(BaseModel):
             hidden=edits.hidden,
             anchors=sorted(edits.anchors.items()),
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
-            forbidden=edits.strokes,
+            forbidden=tuple(one for one in edits.strokes if isinstance(one, Stroke)),
+            guides=[one.columns for one in edits.strokes if isinstance(one, Guide)],
             can_undo=bool(state.steps),
             can_redo=bool(state.taken),
             undo_what=spoken(state.steps[-1].change) if state.steps else None,
@@ -287,14 +293,33 @@ class Margins(BaseModel):
 
 
 class ShownAlternative(BaseModel):
-    """Another line through a column."""
+    """A line along another ridge. A guide along its points, with its radius, chooses it."""
 
-    row: int
+    rows: list[int]
     detour: float
+    """How much dearer than the line as it is."""
+
+    apart: float
+    """Share of columns in which it follows another ridge."""
+
+    points: list[tuple[int, int]]
+    radius: int
+
+    @classmethod
+    def of(cls, line: OtherLine) -> ShownAlternative:
+        """Show a line."""
+        points, radius = along(line.rows)
+        return cls(
+            rows=line.rows.tolist(),
+            detour=round(line.detour, 4),
+            apart=round(line.apart, 4),
+            points=points,
+            radius=radius,
+        )
 
 
 class Alternatives(BaseModel):
-    """Other lines through a column, the cheapest first."""
+    """Lines along other ridges, the cheapest first."""
 
     alternatives: list[ShownAlternative]
 

@@ -18,6 +18,7 @@ from annotate.server.messages import (
     ShownAlternative,
     Step,
 )
+from annotate.store.operations import Rough
 from annotate.store.store import StaleError
 from annotate.work.session import Session
 from annotate.work.workbench import Workbench
@@ -55,17 +56,23 @@ def preview(bench: Bench, photo: PhotoId, pixel: Pixel) -> Part:
         return Part.of(rows, None if wire.empty else wire.skyline.rows.astype(int))
 
 
-@router.get("/alternatives/{column}")
-def alternatives(bench: Bench, photo: PhotoId, column: Column) -> Alternatives:
-    """Other lines through a column."""
+@router.post("/guide")
+def guide(bench: Bench, photo: PhotoId, stroke: Rough) -> Part:
+    """The part of the line that a guide along a rough stroke would change."""
     session = bench.session(photo)
-    if column >= session.photo.width:
-        raise HTTPException(422, f"the photo has {session.photo.width} columns.")
     with session.lock:
-        found = session.wire.alternatives(column)
-    return Alternatives(
-        alternatives=[ShownAlternative(row=one.row, detour=one.detour) for one in found]
-    )
+        wire = session.wire
+        line = wire.preview_guide(stroke.points, stroke.radius, stroke.times)
+        return Part.of(line.rows.astype(int), None if wire.empty else wire.skyline.rows.astype(int))
+
+
+@router.get("/alternatives")
+def alternatives(bench: Bench, photo: PhotoId) -> Alternatives:
+    """Whole lines along other ridges."""
+    session = bench.session(photo)
+    with session.lock:
+        found = session.wire.alternatives()
+    return Alternatives(alternatives=[ShownAlternative.of(one) for one in found])
 
 
 @router.post("/operations")

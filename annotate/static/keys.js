@@ -25,7 +25,7 @@ export function keyTable(act) {
       act.moveRow((event.key === "ArrowUp" ? -1 : 1) * pace(event)), "ArrowUp", "ArrowDown"),
     one("Enter, Shift+Enter", "Set an anchor at the cursor; and leave the old line around it", (event) => act.anchorHere(event.shiftKey), "Enter"),
     one("Delete", "Remove the anchor nearest the cursor", () => act.removeNearest(), "Delete", "Backspace"),
-    one("1 2 3 4", "Other lines through the cursor's column, the likeliest first", (event) => act.alternative(Number(event.key)), "1", "2", "3", "4"),
+    one("1 2 3 4", "Lines along other ridges, the likeliest first", (event) => act.alternative(Number(event.key)), "1", "2", "3", "4"),
     one("U, Ctrl+Z", "Undo", () => act.undo(), "u", "Ctrl+z"),
     one("Y, Ctrl+Shift+Z", "Redo", () => act.redo(), "y", "Ctrl+y", "Ctrl+Z"),
     one("M", "Put a mark at the cursor", () => act.mark(), "m"),

@@ -110,14 +110,12 @@ export function lineActions({ labelling, view, selection, previewer, focus }) {
     /** @param {number} number */
     async alternative(number) {
       const { id } = shown();
-      const [column] = place();
       try {
-        const { alternatives } = await get(`api/photos/${id}/alternatives/${column}`);
+        const { alternatives } = await get(`api/photos/${id}/alternatives`);
         if (labelling.document?.id !== id) return; // asked for a photo that is left by now
         const chosen = alternatives[number - 1];
-        if (!chosen) return labelling.say(`${counted(alternatives.length, "other line")} through column ${column}.`);
-        moveTo(column, null);
-        act.setAnchor(column, chosen.row);
+        if (!chosen) return labelling.say(`There are ${counted(alternatives.length, "other line")}.`);
+        labelling.apply({ kind: "guide", points: chosen.points, radius: chosen.radius });
       } catch (error) {
         labelling.say(ApiError.of(error).message, true);
       }

@@ -4,7 +4,7 @@
  * Written by `python -m tools.page_types` from the server's models; do not edit it by hand.
  */
 
-/** Other lines through a column, the cheapest first. */
+/** Lines along other ridges, the cheapest first. */
 export interface Alternatives {
   alternatives: ShownAlternative[];
 }
@@ -39,6 +39,7 @@ export interface Document {
   anchors: [number, number][];
   spans: ShownSpan[];
   forbidden: Stroke[];
+  guides: [number, number][];
   can_undo: boolean;
   can_redo: boolean;
   undo_what: string | null;
@@ -61,6 +62,14 @@ export interface Forbid {
   points: [number, number][];
   radius: number;
   allow?: boolean;
+}
+
+/** The line lies along a rough stroke. */
+export interface Guide {
+  points: [number, number][];
+  radius?: number | null;
+  times?: number[];
+  kind: "guide";
 }
 
 /** The line cannot be seen in some columns, or can be seen again. */
@@ -144,6 +153,13 @@ export interface RemoveAnchor {
   column: number;
 }
 
+/** A rough stroke, along which the line snaps. */
+export interface Rough {
+  points: [number, number][];
+  radius?: number | null;
+  times?: number[];
+}
+
 /** The line passes through a pixel. */
 export interface SetAnchor {
   kind: "anchor";
@@ -170,10 +186,13 @@ export interface Sheet {
   pages: number;
 }
 
-/** Another line through a column. */
+/** A line along another ridge. A guide along its points, with its radius, chooses it. */
 export interface ShownAlternative {
-  row: number;
+  rows: number[];
   detour: number;
+  apart: number;
+  points: [number, number][];
+  radius: number;
 }
 
 /** A format in which labels leave. */
@@ -241,6 +260,7 @@ export type Operation =
   | MoveAnchor
   | RemoveAnchor
   | Forbid
+  | Guide
   | Straight
   | Draw
   | Hide

@@ -12,7 +12,8 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from annotate.engine.edits import Edits, Span, SpanKind, Stroke
+from annotate.engine.edits import Edits, Span, SpanKind, Steering, Stroke
+from annotate.engine.guide import Guide
 from annotate.store.history import State, Step
 from annotate.store.labels import Status
 from annotate.store.operations import Change
@@ -40,6 +41,12 @@ class _Stroke(_Part):
     allow: bool
 
 
+class _Guide(_Part):
+    first: int
+    tops: tuple[int, ...]
+    bottoms: tuple[int, ...]
+
+
 class _Checkpoint(_Part):
     version: Literal[1]
     label: int
@@ -47,7 +54,7 @@ class _Checkpoint(_Part):
     width: int
     anchors: list[tuple[int, int]]
     spans: tuple[_Span, ...]
-    strokes: tuple[_Stroke, ...]
+    strokes: tuple[_Stroke | _Guide, ...]
     hidden: tuple[tuple[int, int], ...]
     steps: list[tuple[Change, Status]]
     taken: tuple[Change, ...]
@@ -70,10 +77,7 @@ def packed(state: State, label: int) -> bytes:
         width=edits.width,
         anchors=list(edits.anchors.items()),
         spans=tuple(_Span.model_construct(**vars(one)) for one in edits.spans),
-        strokes=tuple(
-            _Stroke.model_construct(points=one.points, radius=one.radius, allow=one.allow)
-            for one in edits.strokes
-        ),
+        strokes=tuple(_steering(one) for one in edits.strokes),
         hidden=edits.hidden,
         steps=[(one.change, one.status) for one in state.steps],
         **{name: getattr(state, name) for name in _SAME},
@@ -101,9 +105,18 @@ def unpacked(data: bytes, label: int, empty: Edits) -> State | None:
             found.width,
             MappingProxyType(dict(found.anchors)),
             tuple(Span(**vars(one)) for one in found.spans),
-            tuple(Stroke(**vars(one)) for one in found.strokes),
+            tuple(
+                Stroke(**vars(one)) if isinstance(one, _Stroke) else Guide(**vars(one))
+                for one in found.strokes
+            ),
             found.hidden,
         ),
         steps=tuple(Step(change, status) for change, status in found.steps),
         **{name: getattr(found, name) for name in _SAME},
     )
+
+
+def _steering(one: Steering) -> _Stroke | _Guide:
+    if isinstance(one, Guide):
+        return _Guide.model_construct(first=one.first, tops=one.tops, bottoms=one.bottoms)
+    return _Stroke.model_construct(points=one.points, radius=one.radius, allow=one.allow)

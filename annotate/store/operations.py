@@ -22,6 +22,9 @@ Point: TypeAlias = Annotated[tuple[Place, Place], Strict(False)]
 Points: TypeAlias = Annotated[list[Point], Field(min_length=1, max_length=5000)]
 """Column and row of each point of a stroke."""
 
+Time: TypeAlias = Annotated[int, Field(ge=0, le=2**40)]
+"""Milliseconds since any moment."""
+
 
 class _Operation(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
@@ -74,6 +77,27 @@ class Forbid(_Operation):
     def on(self, edits: Edits) -> Edits:
         """Edits with the stroke."""
         return edits.forbid(self.points, self.radius, allow=self.allow)
+
+
+class Rough(_Operation):
+    """A rough stroke, along which the line snaps."""
+
+    points: Points
+    radius: Annotated[int, Field(ge=1, le=1000)] | None = None
+    """What the hand is uncertain by, in pixels; the photo's height says it where nobody does."""
+
+    times: Annotated[list[Time], Field(max_length=5000)] = []
+    """When each point was reached, in milliseconds; empty where nobody knows."""
+
+
+class Guide(Rough):
+    """The line lies along a rough stroke."""
+
+    kind: Literal["guide"] = "guide"
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with the guide."""
+        return edits.guide(self.points, self.radius, self.times)
 
 
 class Straight(_Operation):
@@ -166,7 +190,7 @@ class Redo(_Operation):
 
 
 Edit: TypeAlias = Annotated[
-    SetAnchor | MoveAnchor | RemoveAnchor | Forbid | Straight | Draw | Hide | Release,
+    SetAnchor | MoveAnchor | RemoveAnchor | Forbid | Guide | Straight | Draw | Hide | Release,
     Field(discriminator="kind"),
 ]
 """What changes the line."""
@@ -188,6 +212,7 @@ _SPOKEN = {
     "move": "the move of the anchor",
     "remove": "the removal of the anchor",
     "forbid": "the brush stroke",
+    "guide": "the guide",
     "straight": "the straight span",
     "drawn": "the drawn span",
     "hidden": "the hidden columns",

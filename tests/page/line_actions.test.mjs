@@ -114,17 +114,17 @@ test("uncertain columns are visited, and said to be so", () => {
 
 test("other lines are taken by number, on the photo they were asked for alone", async () => {
   let arrive;
-  globalThis.fetch = () => new Promise((done) => { arrive = () => done(answer(200, { alternatives: [{ row: 80, detour: 1 }] })); });
+  globalThis.fetch = () => new Promise((done) => { arrive = () => done(answer(200, { alternatives: [{ points: [[0, 80], [399, 70]], radius: 4 }] })); });
   const settle = async () => {
     arrive();
     for (let turn = 0; turn < 5; turn++) await soon();
   };
   act.alternative(1);
   await settle();
-  assert.deepEqual(labelling.applied, [{ kind: "anchor", column: 200, row: 80 }]);
+  assert.deepEqual(labelling.applied, [{ kind: "guide", points: [[0, 80], [399, 70]], radius: 4 }]);
   act.alternative(2);
   await settle();
-  assert.equal(labelling.said.at(-1), "1 other line through column 200.");
+  assert.equal(labelling.said.at(-1), "There are 1 other line.");
   act.alternative(1);
   labelling.document = photo({ id: 2 });
   await settle();

@@ -13,7 +13,6 @@ from skyline_viz.config import DetectorConfig
 from skyline_viz.constraints import Anchor, Constraints, PathError
 from skyline_viz.detector import Detector
 from skyline_viz.path import path_tables, shortest_path
-from skyline_viz.uncertainty import APART
 from testing.detections import unseen
 from testing.examples import examples
 
@@ -32,11 +31,10 @@ def hills(seed, height=48, width=70):
 
 
 def searched(wire, photo):
-    """Rows by one whole search, and its margins."""
+    """The path by one whole search."""
     cost = DETECTOR.detect(photo).cost
     anchors = tuple(Anchor(column, row) for column, row in wire.edits.anchors.items())
-    given = cost, CONFIG.delta, CONFIG.link_weight, Constraints(anchors)
-    return shortest_path(*given), path_tables(*given)
+    return shortest_path(cost, CONFIG.delta, CONFIG.link_weight, Constraints(anchors))
 
 
 def cost_of(rows, cost):
@@ -91,14 +89,8 @@ def test_every_line_is_the_cheapest_under_its_anchors(data):
     anchors = sorted(wire.edits.anchors.items())
     steep = [abs(b[1] - a[1]) > CONFIG.delta * (b[0] - a[0]) for a, b in pairwise(anchors)]
     if not any(steep):
-        path, tables = searched(wire, photo)
+        path = searched(wire, photo)
         assert cost_of(wire.skyline.rows, cost) == pytest.approx(path.cost, abs=1e-4)
-        free = ~np.isin(np.arange(width), list(wire.edits.anchors))
-        column = data.draw(st.sampled_from(np.flatnonzero(free).tolist()))
-        through = tables.min_marginals[:, column]
-        for other in wire.alternatives(column):
-            detour = through[other.row] - through.min()
-            assert other.detour == pytest.approx(detour, abs=1e-4)
 
 
 def test_an_anchor_is_local(photo):
@@ -142,8 +134,7 @@ def test_the_brush_keeps_the_line_out(photo):
     row = int(wire.skyline.rows[35])
     wire.forbid([(30, row), (40, row)], 3)
     assert (np.abs(wire.skyline.rows[30:41] - row) > 3).all()
-    for column in (33, 34):
-        assert np.abs(wire.alternatives(column)[0].row - row) > 3
+    assert all((np.abs(one.rows[30:41] - row) > 3).all() for one in wire.alternatives())
     wire.forbid([(30, row), (40, row)], 6, allow=True)
     assert wire.skyline == LiveWire(photo, DETECTOR).skyline
 
@@ -210,7 +201,7 @@ def test_blind_labels_are_straight_lines(photo):
     assert wire.empty
     with pytest.raises(PathError, match="nothing has been drawn"):
         _ = wire.skyline
-    assert wire.alternatives(5) == []
+    assert wire.alternatives() == []
     wire.anchor(10, 20)
     assert set(wire.skyline.rows) == {20}
     wire.anchor(20, 40)
@@ -230,6 +221,10 @@ def test_blind_labels_are_straight_lines(photo):
         (lambda wire: wire.forbid([], 3), "at least one point"),
         (lambda wire: wire.forbid([(200, 3)], 3), "outside the photo"),
         (lambda wire: wire.hide(80, 90), "outside the photo"),
+        (lambda wire: wire.guide([(200, 3), (300, 3)]), "outside the photo"),
+        (lambda wire: wire.guide([]), "at least one point"),
+        (lambda wire: wire.guide([(3, 3)], 0), "a radius of 1 or more"),
+        (lambda wire: wire.guide([(3, 3)], 2, [1, 2]), "a time for each of its points"),
         (lambda wire: wire.preview(3, 3, lifted=9), "no anchor in column 9"),
     ],
 )
@@ -241,23 +236,18 @@ def test_edits_that_make_no_sense_are_one_sentence(photo, ask, sentence):
     assert wire.edits == Edits(48, 70)
 
 
-@pytest.mark.parametrize("height", [60, 1300])
-def test_alternatives_lie_apart_and_cost_what_they_say(height):
-    photo = np.random.default_rng(1).integers(0, 256, (height, 40, 3), np.uint8)
+def test_alternatives_keep_to_what_was_asked_for(photo):
     wire = LiveWire(photo, DETECTOR)
-    least = max(APART, height // 100)
-    for column in (0, 17, 39):
-        found = wire.alternatives(column)
-        assert len(found) == 4
-        rows = sorted([int(wire.skyline.rows[column]), *(one.row for one in found)])
-        assert min(np.diff(rows)) > least
-        detours = [one.detour for one in found]
-        assert detours == sorted(detours)
+    wire.draw(10, [3, 40, 3])
+    wire.anchor(60, int(wire.skyline.rows[60]))
+    found = wire.alternatives()
+    assert found
+    for one in found:
+        assert one.rows[10:13].tolist() == [3, 40, 3]
+        assert one.rows[60] == wire.skyline.rows[60]
         cost = DETECTOR.detect(photo).cost
-        for one in found[:2]:
-            line = wire.preview(column, one.row).rows
-            dearer = cost_of(line, cost) - cost_of(wire.skyline.rows, cost)
-            assert one.detour == pytest.approx(dearer, abs=1e-3)
+        dearer = cost_of(one.rows, cost) - cost_of(wire.skyline.rows, cost)
+        assert one.detour == pytest.approx(dearer, abs=1e-3)
 
 
 def test_what_the_detector_doubts_is_a_word_and_hides_nothing(photo):
@@ -267,3 +257,91 @@ def test_what_the_detector_doubts_is_a_word_and_hides_nothing(photo):
     assert wire.anchor(30, 20).visible.all()
     assert LiveWire(photo, None).doubt == ""
     assert LiveWire(photo, Detector(config=DetectorConfig.paper())).doubt == ""
+
+
+def test_a_guide_leads_the_line_to_another_ridge(photo):
+    wire = LiveWire(photo, DETECTOR)
+    upper = wire.skyline
+    lower = upper.rows.max() + 14
+    rough = [(5, lower + 3), (35, lower - 3), (60, lower + 2)]
+    shown = wire.preview_guide(rough, 6)
+    assert wire.skyline == upper
+    assert wire.guide(rough, 6) == shown
+    inside = slice(5, 61)
+    stroke = np.interp(np.arange(5, 61), *zip(*rough, strict=True))
+    assert (np.abs(shown.rows[inside] - stroke) <= 7).all()
+    again = LiveWire(photo, DETECTOR)
+    again.edits = wire.edits
+    assert again.skyline == shown
+    wire.edits = wire.edits.release(0, 69)
+    assert wire.skyline == upper
+
+
+@examples(60)
+@given(st.data())
+def test_a_guided_line_is_the_cheapest_in_its_corridor(data):
+    photo = hills(data.draw(st.integers(0, 4)))
+    height, width = photo.shape[:2]
+    cost = DETECTOR.detect(photo).cost
+    wire = LiveWire(photo, DETECTOR)
+    forbidden = np.zeros(cost.shape, np.bool_)
+    for _ in range(data.draw(st.integers(1, 3))):
+        ends = st.tuples(st.integers(0, width - 1), st.integers(8, height - 9))
+        points = data.draw(st.lists(ends, min_size=2, max_size=4))
+        try:
+            wire.guide(points, data.draw(st.integers(3, 9)))
+        except PathError:
+            assert wire.edits.strokes  # of a guide before it: the two cannot be joined
+            continue
+        guide = wire.edits.strokes[-1]
+        tops, bottoms = guide.bounds(CONFIG.delta)
+        rows = np.arange(height)[:, None]
+        forbidden[:, guide.first : guide.last + 1] = (rows < tops) | (rows > bottoms)
+    path = shortest_path(cost, CONFIG.delta, CONFIG.link_weight, Constraints(forbidden=forbidden))
+    assert cost_of(wire.skyline.rows, cost) == pytest.approx(path.cost, abs=1e-4)
+
+
+def test_a_guide_takes_the_place_of_what_was_asked_for_before(photo):
+    wire = LiveWire(photo, DETECTOR)
+    wire.anchor(30, 5)
+    wire.anchor(69, 20)
+    wire.draw(38, [44] * 20)
+    wire.forbid([(24, 30), (34, 30)], 8)
+    wire.guide([(20, 30), (45, 30)], 4)
+    assert dict(wire.edits.anchors) == {69: 20}
+    assert [(one.first, one.last) for one in wire.edits.spans] == [(54, 57)]
+    assert (np.abs(wire.skyline.rows[20:46] - 30) <= 4).all()
+    assert wire.skyline.rows[69] == 20
+
+
+@pytest.mark.parametrize("row", [3, 44])
+def test_a_click_wins_over_a_guide_and_over_the_brush(photo, row):
+    wire = LiveWire(photo, DETECTOR)
+    wire.forbid([(0, row), (69, row)], 5)
+    painted = wire.skyline
+    shown = wire.preview(35, row)
+    assert wire.anchor(35, row) == shown
+    assert shown.rows[35] == row
+    assert abs(shown.rows[2] - row) > 5
+    wire.edits = wire.edits.remove(35)
+    assert wire.skyline == painted
+    wire.guide([(10, 24), (60, 24)], 4)
+    guided = wire.skyline
+    for off in (33, row):
+        assert wire.anchor(35, off).rows[35] == off
+        assert off == row or np.abs(wire.skyline.rows[10] - 24) <= 4  # far from what is cleared
+    wire.edits = wire.edits.remove(35)
+    assert wire.skyline == guided
+
+
+def test_a_guide_that_cannot_be_joined_is_refused(photo):
+    wire = LiveWire(photo, DETECTOR)
+    before = wire.anchor(30, 5)
+    with pytest.raises(PathError, match="from the guide to what is fixed beside it"):
+        wire.guide([(31, 44), (50, 44)], 3)
+    assert wire.skyline == before
+    blind = LiveWire(photo, None)
+    for ask in (blind.guide, blind.preview_guide):
+        with pytest.raises(PathError, match="labelled blind"):
+            ask([(3, 4), (9, 4)])
+    assert blind.edits == Edits(48, 70)

@@ -252,3 +252,24 @@ def test_what_another_program_added_is_shown_after_one_refusal(client, folder):
     assert document(client)["revision"] == said.json()["revision"]
     again = post(client, "operations", {**body, "revision": said.json()["revision"]}).json()
     assert (again["status"], again["tags"]) == ("accepted", ["theirs"])
+
+
+def test_a_guide_is_previewed_and_is_one_operation(client):
+    before = document(client)
+    stroke = {"points": [[10, 38], [40, 42], [60, 38]], "radius": 5, "times": [0, 400, 800]}
+    part = post(client, "guide", stroke).json()
+    assert document(client)["rows"] == before["rows"]
+    after = do(client, {"kind": "guide", **stroke}).json()
+    first, last = part["first"], part["first"] + len(part["rows"])
+    assert after["rows"][first:last] == part["rows"]
+    assert (
+        after["rows"][:first] + after["rows"][last:]
+        == before["rows"][:first] + before["rows"][last:]
+    )
+    assert all(abs(row - 40) <= 9 for row in after["rows"][12:58])
+    assert (after["guides"], after["undo_what"]) == ([[10, 60]], "the guide")
+    undone = undo(client)
+    assert (undone["rows"], undone["guides"]) == (before["rows"], [])
+    assert post(client, "guide", {"points": []}).status_code == 422
+    outside = post(client, "guide", {"points": [[-900, 3]]})
+    assert outside.json()["detail"] == "the guide lies outside the photo."

@@ -31,14 +31,20 @@ def test_margins_are_those_of_the_line_as_it_is(client):
     assert margins["uncertain"]
 
 
-def test_alternatives_run_through_other_rows_the_cheapest_first(client):
-    row = client.get("/api/photos/3").json()["rows"][40]
-    found = client.get("/api/photos/3/alternatives/40").json()["alternatives"]
-    assert found
-    assert all(one["row"] != row for one in found)
+def test_an_alternative_is_another_ridge_and_a_guide_chooses_it(client):
+    before = client.get("/api/photos/3").json()["rows"]
+    found = client.get("/api/photos/3/alternatives").json()["alternatives"]
     detours = [one["detour"] for one in found]
+    assert found
     assert detours == sorted(detours)
-    assert client.get("/api/photos/3/alternatives/70").status_code == 422
+    for one in found:
+        off = np.abs(np.subtract(one["rows"], before)) > 5
+        assert off.mean() == pytest.approx(one["apart"], abs=1e-3)
+        assert one["apart"] >= 0.2
+    chosen = {name: found[0][name] for name in ("points", "radius")}
+    after = operate(client, 3, kind="guide", **chosen)
+    assert np.abs(np.subtract(after["rows"], found[0]["rows"])).max() <= 8
+    assert client.post("/api/photos/3/undo", json=asked()).json()["rows"] == before
 
 
 def test_a_pixel_is_explained_down_to_its_patch_and_terms(client):
@@ -71,7 +77,7 @@ def test_a_blind_photo_has_no_recording(tmp_path):
         assert answer.status_code == 403
         assert "labelled blind" in answer.json()["detail"]
         assert client.get("/api/photos/1/pixels/3/3").status_code == 403
-        assert client.get("/api/photos/1/alternatives/3").json() == {"alternatives": []}
+        assert client.get("/api/photos/1/alternatives").json() == {"alternatives": []}
 
 
 def test_a_doubted_proposal_is_said_until_somebody_has_worked_on_it(tmp_path):

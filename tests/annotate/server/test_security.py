@@ -17,7 +17,7 @@ ROUTES = [
     ("GET", "/api/photos/1/tiles/0/0"),
     ("GET", "/api/photos/1/stages/edges"),
     ("GET", "/api/photos/1/strip"),
-    ("GET", "/api/photos/1/alternatives/3"),
+    ("GET", "/api/photos/1/alternatives"),
     ("GET", "/api/sheet"),
     ("GET", "/api/learn"),
     ("GET", "/api/exports/csv"),

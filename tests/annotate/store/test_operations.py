@@ -14,6 +14,10 @@ DONE = {
     "move": ({"from_column": 5, "column": 3, "row": 4}, EDITS.move(5, 3, 4)),
     "remove": ({"column": 5}, EDITS.remove(5)),
     "forbid": ({"points": [[1, 2], [3, 4]], "radius": 2}, EDITS.forbid([(1, 2), (3, 4)], 2)),
+    "guide": (
+        {"points": [[1, 2], [30, 4]], "radius": 3, "times": [0, 900]},
+        EDITS.guide([(1, 2), (30, 4)], 3, [0, 900]),
+    ),
     "straight": (
         {"column": 1, "row": 2, "to_column": 9, "to_row": 8},
         EDITS.straight(1, 2, 9, 8),
@@ -45,6 +49,9 @@ def test_each_does_what_it_says(kind):
         {"kind": "forbid", "points": [], "radius": 2},
         {"kind": "forbid", "points": [[1, 2]], "radius": -1},
         {"kind": "forbid", "points": [[1, 2, 3]], "radius": 1},
+        {"kind": "guide", "points": [], "radius": 2},
+        {"kind": "guide", "points": [[1, 2]], "radius": 0},
+        {"kind": "guide", "points": [[1, 2]], "times": [-1]},
         {"kind": "drawn", "first": 0, "rows": []},
         {"kind": "tag", "tag": ""},
         {"kind": "tag", "tag": "a\nb"},

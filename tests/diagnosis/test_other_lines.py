@@ -1,0 +1,60 @@
+"""Lines along other ridges."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from skyline_viz.constraints import Anchor, Constraints
+from skyline_viz.detector import Detector
+from skyline_viz.diagnosis.other_lines import other_lines
+from skyline_viz.path import shortest_path
+from testing.examples import examples
+from testing.labelling import hills
+
+DELTA, LINK = 3, 0.1
+
+
+def apart(one, other, height):
+    return (np.abs(one - other) > max(5, height // 50)).mean()
+
+
+@examples(40)
+@given(st.integers(0, 40), st.integers(0, 2))
+def test_lines_lie_apart_are_valid_and_cost_what_they_say(seed, anchors):
+    chance = np.random.default_rng(seed)
+    cost = chance.random((60, 50)).astype(np.float32)
+    fixed = Constraints(tuple(Anchor(20 * at, int(chance.integers(60))) for at in range(anchors)))
+    first = shortest_path(cost, DELTA, LINK, fixed)
+    found = other_lines(cost, DELTA, LINK, first.rows, fixed)
+    assert len(found) <= 4
+    detours = [one.detour for one in found]
+    assert detours == sorted(detours)
+    for one in found:
+        assert (np.abs(np.diff(one.rows)) <= DELTA).all()
+        assert all(one.rows[anchor.column] == anchor.row for anchor in fixed.anchors)
+        paid = cost[one.rows, np.arange(50)].sum() + LINK * np.abs(np.diff(one.rows)).sum()
+        assert one.detour == pytest.approx(paid - first.cost, abs=1e-3)
+        assert one.apart == apart(one.rows, first.rows, 60)
+    for one, other in combinations([first.rows, *(one.rows for one in found)], 2):
+        assert apart(one, other, 60) >= 0.2
+
+
+def test_the_other_ridge_is_found_and_says_what_it_pays():
+    photo = hills(3, 120, 160)
+    detection = Detector().detect(photo)
+    rows = detection.skyline.rows.astype(np.int32)
+    found = other_lines(detection.cost, detection.delta, detection.link_weight, rows)
+    lower = 120 * 0.62
+    assert any(np.abs(one.rows - lower).mean() < 120 / 8 for one in found)
+    for one in found:
+        paid = one.paid(detection.cost_model)
+        assert sum(paid.values()) == pytest.approx(detection.path_cost + one.detour, rel=1e-4)
+
+
+def test_where_all_is_fixed_there_is_no_other_line():
+    cost = np.ones((9, 4), np.float32)
+    fixed = Constraints(tuple(Anchor(column, 3) for column in range(4)))
+    assert other_lines(cost, 1, 0.1, np.full(4, 3), fixed) == []
