@@ -47,9 +47,11 @@ def follow(
     for place in range(count):
         for row in range(tops[place], bottoms[place] + 1):
             if place > 0:
-                least = _least(table[place - 1], tops[place - 1], row, reach, link_weight)[0]
+                least = _cheapest_before(
+                    table[place - 1], tops[place - 1], row, reach, link_weight
+                )[0]
             elif len(before):
-                least = _least(before, 0, row, reach, link_weight)[0]
+                least = _cheapest_before(before, 0, row, reach, link_weight)[0]
             else:
                 least = 0.0
             table[place, row - tops[place]] = least + columns[first + place, row]
@@ -57,7 +59,7 @@ def follow(
     for row in range(tops[-1], bottoms[-1] + 1):
         cost = table[-1, row - tops[-1]]
         if len(after):
-            cost += _least(after, 0, row, reach, link_weight)[0]
+            cost += _cheapest_before(after, 0, row, reach, link_weight)[0]
         if cost < lowest:
             best, lowest = row, cost
     if best < 0:
@@ -65,12 +67,16 @@ def follow(
     rows[first + count - 1] = best
     for place in range(count - 2, -1, -1):
         row = rows[first + place + 1]
-        rows[first + place] = _least(table[place], tops[place], row, reach, link_weight)[1]
+        rows[first + place] = _cheapest_before(table[place], tops[place], row, reach, link_weight)[
+            1
+        ]
     return lowest
 
 
 @numba.njit(cache=True, nogil=True, inline="always")
-def _least(costs: F64, top: int, row: int, reach: int, link_weight: float) -> tuple[float, int]:
+def _cheapest_before(
+    costs: F64, top: int, row: int, reach: int, link_weight: float
+) -> tuple[float, int]:
     """Cost of the cheapest way to a row from the column beside it, and from which row."""
     at = row - top
     least, best = np.inf, row

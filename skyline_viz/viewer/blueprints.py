@@ -3,8 +3,7 @@
 - *Skyline*: where is the line, and is it right?
 - *Stages*: the paper's figure 1, (a) to (f), and what is added to it.
 - *Tensor*: what picks the filter.
-- *Terms*: what each pixel pays for each term of the nodal cost.
-- *Search*: min-marginals, forward table, back pointers and link costs.
+- *Terms*, *Search*: what each pixel pays for each term, and what the path search found there.
 - *Pixel*: one pixel of the path and one of the truth, all the way down.
 - *Filter bank*: the filters, and which of them the chosen pixels use.
 - *Columns*: error, margin and costs along the columns.
