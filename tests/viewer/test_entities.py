@@ -6,7 +6,11 @@ from skyline_viz.stage import Quantity
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.entities import below, of_quantity
 
-PATHS = {name: value for name, value in vars(entities).items() if name.isupper()}
+PATHS = {
+    name: value
+    for name, value in vars(entities).items()
+    if name.isupper() and isinstance(value, str)
+}
 
 
 def test_they_differ_and_are_plain():

@@ -31,7 +31,7 @@ def test_a_stage_is_seen_where_it_has_values(name):
     detection = DETECTOR.detect(hills(1))
     layer = overlay(detection, name)
     assert layer.shape == (*detection.edges.shape, 4)
-    if name in ("edges", "score", "bin"):
+    if name in ("edges", "score", "bin", "score and strength"):
         np.testing.assert_array_equal(layer[..., 3] > 0, detection.edges)
     else:
         assert (layer[..., 3] == 255).all()
