@@ -7,13 +7,13 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import cv2
 
 from benchmarks.table import markdown
+from benchmarks.turns import fastest
 from skyline_viz import Detector, open_dataset, read_photo, write_photo
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.running.warming import warm_up
@@ -59,7 +59,7 @@ def _against_detecting(items: Sequence[DatasetItem]) -> str:
             photo = item.photo()
             line = detector.detect(photo).skyline
             write_photo(jpeg, photo, quality=92)
-            found = _fastest(
+            found = fastest(
                 {
                     "detecting": lambda photo=photo: detector.detect(photo),
                     "reading the truth": item.truth,
@@ -76,17 +76,6 @@ def _against_detecting(items: Sequence[DatasetItem]) -> str:
     ]
     table = markdown(["as a part of detecting", "median", "largest"], rows)
     return f"What surrounds a detection, processor time of one thread, in turn:\n\n{table}"
-
-
-def _fastest(actions: dict[str, Callable[[], object]]) -> dict[str, float]:
-    """Processor seconds of the fastest of several runs of each action, in turn."""
-    best = dict.fromkeys(actions, float("inf"))
-    for _ in range(REPEATS):
-        for name, action in actions.items():
-            start = time.thread_time()
-            action()
-            best[name] = min(best[name], time.thread_time() - start)
-    return best
 
 
 def _one_photo(item: DatasetItem) -> str:

@@ -5,8 +5,7 @@ in one thread here, in turn, and the fastest of several runs of each counts.
 """
 
 import statistics
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -15,11 +14,11 @@ import numpy as np
 from skimage.graph import MCP, route_through_array
 
 from benchmarks.table import markdown
+from benchmarks.turns import fastest
 from skyline_viz import Detector
 from skyline_viz.arrays import F32, U8
 from skyline_viz.path import shortest_path
 
-REPEATS = 7
 PEERS = 3
 """Photos on which the searches of scikit-image run, which take a hundred times as long."""
 
@@ -42,7 +41,7 @@ def measured(photos: Sequence[U8], large: Sequence[U8]) -> str:
     finally:
         cv2.setNumThreads(threads)
     table = markdown(["processor time of one thread", "median", "smallest", "largest"], rows)
-    return f"All in one thread, in turn, the fastest of {REPEATS} runs of each:\n\n{table}"
+    return f"All in one thread, in turn, the fastest of several runs of each:\n\n{table}"
 
 
 def _by_size(photos: Sequence[U8]) -> dict[str, list[U8]]:
@@ -60,13 +59,16 @@ def _detections(size: str, photos: Sequence[U8]) -> list[list[str]]:
     grey_ratios, colour_ratios = [], []
     for photo in photos:
         thresholds = detector.detect(photo).thresholds
-        seconds = _fastest(
-            partial(detector.detect, photo),
-            partial(cv2.Canny, cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY), 50, 220),
-            partial(cv2.Canny, photo, *thresholds),
+        grey = cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY)
+        seconds = fastest(
+            {
+                "detection": partial(detector.detect, photo),
+                "grey": partial(cv2.Canny, grey, 50, 220),
+                "colour": partial(cv2.Canny, photo, *thresholds),
+            }
         )
-        grey_ratios.append(seconds[0] / seconds[1])
-        colour_ratios.append(seconds[0] / seconds[2])
+        grey_ratios.append(seconds["detection"] / seconds["grey"])
+        colour_ratios.append(seconds["detection"] / seconds["colour"])
     return [
         _row(f"a detection{size} / Canny in grey", grey_ratios),
         _row(f"a detection{size} / Canny in colour, at the same thresholds", colour_ratios),
@@ -78,17 +80,19 @@ def _searches(photos: Sequence[U8]) -> list[list[str]]:
     detector = Detector()
     found: dict[str, list[float]] = {}
     for photo in photos:
-        cost = detector.detect(photo).cost
-        whole, ours, route, mcp = _fastest(
-            partial(detector.detect, photo),
-            partial(shortest_path, cost, detector.config.delta, detector.config.link_weight),
-            partial(_route, cost),
-            partial(_mcp, cost),
+        cost, config = detector.detect(photo).cost, detector.config
+        seconds = fastest(
+            {
+                "": partial(detector.detect, photo),
+                "our path search": partial(shortest_path, cost, config.delta, config.link_weight),
+                "`route_through_array` of scikit-image": partial(_route, cost),
+                "its `MCP`": partial(_mcp, cost),
+            },
             repeats=2,
         )
-        names = "our path search", "`route_through_array` of scikit-image", "its `MCP`"
-        for name, seconds in zip(names, (ours, route, mcp), strict=True):
-            found.setdefault(f"{name} / a whole detection", []).append(seconds / whole)
+        whole = seconds.pop("")
+        for name, taken in seconds.items():
+            found.setdefault(f"{name} / a whole detection", []).append(taken / whole)
     return [_row(name, ratios) for name, ratios in found.items()]
 
 
@@ -101,17 +105,6 @@ def _route(cost: F32) -> Any:  # noqa: ANN401
 
 def _mcp(cost: F32) -> Any:  # noqa: ANN401
     return MCP(cost).find_costs([(row, 0) for row in range(len(cost))])
-
-
-def _fastest(*actions: Callable[[], object], repeats: int = REPEATS) -> list[float]:
-    """Processor seconds of the fastest of several runs of each action, in turn."""
-    best = [float("inf")] * len(actions)
-    for _ in range(repeats):
-        for number, action in enumerate(actions):
-            start = time.thread_time()
-            action()
-            best[number] = min(best[number], time.thread_time() - start)
-    return best
 
 
 def _row(name: str, ratios: Sequence[float]) -> list[str]:

@@ -5,7 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from skyline_viz.detector import Detector
 from skyline_viz.frames.frame import ACROSS, SIDES, Frame, around_frame, without_frame
+from skyline_viz.rendering import render
+from skyline_viz.sky_model import SkyModel
 from testing.examples import examples
 from testing.scenes import framed, noise
 
@@ -68,3 +71,20 @@ def test_a_map_in_a_huge_frame_stays_small():
     found = around_frame(np.ones((8, 6), np.float32), Frame(top=900, left=700), 940, 730)
     assert found.shape == (32, 24)
     assert (found == 1).all()
+
+
+@pytest.mark.parametrize("bars", [{"top": 40, "bottom": 31}, {"left": 30, "right": 30}])
+def test_a_sky_model_sees_the_picture_alone(monkeypatch, bars):
+    seen = []
+
+    def sky(_, photo):
+        seen.append(photo)
+        return np.linspace([1.0], [0.0], 12).repeat(15, axis=1).astype(np.float32)
+
+    monkeypatch.setattr(SkyModel, "sky", sky)
+    picture = render("clear", 3, 240, 160).photo
+    found = Detector().detect(framed(picture, **bars))
+    assert np.array_equal(seen[0], picture)
+    assert found.frame == Frame(**bars)
+    assert found.sky[0].min() == 1
+    assert found.sky[-1].max() == 0
