@@ -10,7 +10,7 @@ from rerun.chunk import RrdReader
 import skyline_viz as sv
 from skyline_viz.config import TrainingConfig
 from skyline_viz.training import train
-from skyline_viz.viewer.rerun_internals import program
+from skyline_viz.viewer.program.rerun_internals import program
 
 
 def verify(path):

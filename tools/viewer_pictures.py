@@ -5,7 +5,7 @@ import tempfile
 from pathlib import Path
 
 from skyline_viz.cli import main as skyline_viz
-from skyline_viz.viewer.process import headless_viewer, settled_picture, show_tab
+from skyline_viz.viewer.program.process import headless_viewer, settled_picture, show_tab
 
 SAMPLES = Path(__file__).parents[1] / "sample_data"
 BAR = 37  # rows of the window's own bar

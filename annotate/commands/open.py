@@ -150,7 +150,7 @@ def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
 
     from annotate.server.app import make_app
     from skyline_viz.system.loopback import allowed_hosts
-    from skyline_viz.viewer.process import has_display
+    from skyline_viz.viewer.program.process import has_display
 
     listener, token = found_again(bench.store, host, port)
     port = listener.getsockname()[1]

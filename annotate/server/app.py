@@ -28,8 +28,8 @@ from annotate.work.workbench import UnknownPhotoError, Workbench
 from skyline_viz.constraints import PathError
 from skyline_viz.method import MethodError
 from skyline_viz.photo import PhotoError
-from skyline_viz.viewer.rerun_internals import ViewerError
-from skyline_viz.viewer.web_viewer import page_file
+from skyline_viz.viewer.program.rerun_internals import ViewerError
+from skyline_viz.viewer.program.web_viewer import page_file
 
 STATIC = Path(__file__).parents[1] / "static"
 """The page."""

@@ -24,7 +24,7 @@ from annotate.work.session import Session
 from annotate.work.workbench import Workbench
 from skyline_viz.diagnosis.explanation import explain_pixel
 from skyline_viz.photo import PhotoError
-from skyline_viz.viewer.in_memory import recorded
+from skyline_viz.viewer.program.in_memory import recorded
 
 router = APIRouter(prefix="/photos/{photo}")
 

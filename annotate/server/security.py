@@ -19,7 +19,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import JSONResponse
 
 from skyline_viz.system.loopback import HEADERS, policy, why_refused
-from skyline_viz.viewer.web_viewer import POLICY as VIEWER_POLICY
+from skyline_viz.viewer.program.web_viewer import POLICY as VIEWER_POLICY
 
 Scope: TypeAlias = MutableMapping[str, Any]
 Message: TypeAlias = MutableMapping[str, Any]

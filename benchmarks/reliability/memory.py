@@ -20,7 +20,7 @@ from annotate.work.open_photos import BUDGET
 from benchmarks.reliability import Trial
 from skyline_viz.photo import read_photo, write_photo
 from skyline_viz.system.memory import in_words
-from skyline_viz.viewer.web_viewer import served as served_recordings
+from skyline_viz.viewer.program.web_viewer import served as served_recordings
 from testing.labelling import TOKEN, served, workbench, write_hills
 from testing.programs.browser import chromium
 

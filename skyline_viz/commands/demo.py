@@ -45,8 +45,8 @@ class Demo:
 
     def run(self) -> int:
         """Detect, record and show; return the exit status."""
-        from skyline_viz.viewer.process import has_display  # heavy
-        from skyline_viz.viewer.rerun_internals import ViewerError
+        from skyline_viz.viewer.program.process import has_display  # heavy
+        from skyline_viz.viewer.program.rerun_internals import ViewerError
 
         inputs = collect(self.photos or [self._samples()])
         output_folder(self.out, (one.item for one in inputs))

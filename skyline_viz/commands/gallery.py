@@ -161,7 +161,7 @@ def build(
 def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: str = "") -> None:
     """Serve a gallery, in a window where there is a display, until it is closed or Ctrl-C."""
     from skyline_viz.gallery.flag_page import flag_page
-    from skyline_viz.viewer.process import has_display, open_viewer
+    from skyline_viz.viewer.program.process import has_display, open_viewer
 
     with (
         _served(out, entries, cause) as gallery,
@@ -185,7 +185,7 @@ def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: str = "") 
 
 def show_picture(out: Path, entries: Sequence[Entry], path: Path, cause: str = "") -> None:
     """Draw the cards of a gallery into a file."""
-    from skyline_viz.viewer.process import save_picture
+    from skyline_viz.viewer.program.process import save_picture
 
     with _served(out, entries, cause) as gallery:
         save_picture(gallery.address, path, PICTURE)

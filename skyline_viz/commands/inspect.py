@@ -157,7 +157,7 @@ class Inspect:
         chosen = [f"--{name}" for name in named if getattr(self, name)]
         if len(chosen) > 1:
             raise UsageError(f"{' and '.join(chosen)} exclude each other.")
-        from skyline_viz.viewer.process import has_display  # the viewer is heavy
+        from skyline_viz.viewer.program.process import has_display  # the viewer is heavy
 
         if not chosen and not has_display():
             raise UsageError(
@@ -324,7 +324,7 @@ class Inspect:
 
     def _show(self, files: list[Path]) -> None:
         """Show recordings, and return when nobody looks any more."""
-        from skyline_viz.viewer import process as viewer
+        from skyline_viz.viewer.program import process as viewer
 
         if self.headless:
             tell(f"{counted(len(files), 'recording')} made.")
@@ -338,7 +338,7 @@ class Inspect:
         elif self.connect:
             viewer.send(files, self.connect)
         elif self.serve:
-            from skyline_viz.viewer.web_viewer import served
+            from skyline_viz.viewer.program.web_viewer import served
 
             with served(files) as address, suppress(KeyboardInterrupt):
                 tell(f"Open {address} in a browser. Ctrl-C ends.")

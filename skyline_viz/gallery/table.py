@@ -24,9 +24,9 @@ from skyline_viz.system.names import recording_id, shortened, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.blueprints import detection_blueprint
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.process import free_port
+from skyline_viz.viewer.program.process import free_port
+from skyline_viz.viewer.program.rerun_internals import card_parts
 from skyline_viz.viewer.recording import APPLICATION
-from skyline_viz.viewer.rerun_internals import card_parts
 
 if TYPE_CHECKING:
     from rerun.blueprint.table import TableBlueprint

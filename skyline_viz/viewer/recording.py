@@ -42,9 +42,9 @@ from skyline_viz.viewer.contents import Contents, Fidelity
 from skyline_viz.viewer.documents import markdown_document
 from skyline_viz.viewer.near import Near
 from skyline_viz.viewer.pixel_recording import log_pixels, opening_column
+from skyline_viz.viewer.program.rerun_file import saved
+from skyline_viz.viewer.program.rerun_internals import let_go_of_orphans
 from skyline_viz.viewer.report import report
-from skyline_viz.viewer.rerun_file import saved
-from skyline_viz.viewer.rerun_internals import let_go_of_orphans
 from skyline_viz.viewer.stage_maps import (
     QUANTITIES,
     encoded_edges,

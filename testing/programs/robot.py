@@ -11,7 +11,7 @@ import psutil
 
 from skyline_viz.system.aftermath import ended, started
 from skyline_viz.system.loopback import LOOPBACK
-from skyline_viz.viewer.rerun_internals import ViewerError, program
+from skyline_viz.viewer.program.rerun_internals import ViewerError, program
 
 
 def listening(process=None):

@@ -18,13 +18,13 @@ from skyline_viz.diagnosis.causes import CAUSES
 from skyline_viz.gallery.flags import Change, change_flags, read_flags
 from skyline_viz.gallery.store import Gallery
 from skyline_viz.gallery.table import served
-from skyline_viz.viewer.process import (
+from skyline_viz.viewer.program.process import (
     headless_viewer,
     settled_picture,
     show_tab,
     tab_names,
 )
-from skyline_viz.viewer.rerun_internals import program
+from skyline_viz.viewer.program.rerun_internals import program
 from testing import SAMPLES, until
 from testing.detections import WITHOUT_SKY
 from testing.programs.robot import Robot, listening, viewer_port

@@ -10,13 +10,13 @@ import skyline_viz as sv
 from skyline_viz.cli import main
 from skyline_viz.tensor import tensor_map
 from skyline_viz.viewer.blueprints import TABS
-from skyline_viz.viewer.process import (
+from skyline_viz.viewer.program.process import (
     headless_viewer,
     settled_picture,
     show_tab,
     tab_names,
 )
-from skyline_viz.viewer.rerun_internals import ViewerError, program
+from skyline_viz.viewer.program.rerun_internals import ViewerError, program
 from testing import SAMPLES, until
 from testing.programs.robot import Robot, listening, viewer_port
 

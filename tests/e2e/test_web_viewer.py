@@ -10,7 +10,7 @@ from PIL import Image
 from annotate.store.operations import SetAnchor
 from skyline_viz.cli import main
 from skyline_viz.colours import PATH, TRUTH
-from skyline_viz.viewer.web_viewer import served as served_recordings
+from skyline_viz.viewer.program.web_viewer import served as served_recordings
 from testing.labelling import TOKEN, served, workbench, write_hills
 from testing.programs.browser import chromium
 

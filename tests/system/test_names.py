@@ -13,7 +13,7 @@ from PIL import Image
 from skyline_viz.cli import main
 from skyline_viz.datasets.layouts import open_dataset
 from skyline_viz.system import names
-from skyline_viz.viewer.rerun_internals import program
+from skyline_viz.viewer.program.rerun_internals import program
 from testing import ROOT, photo_files
 
 PHOTO, ROWS = photo_files.scene(64, 96)

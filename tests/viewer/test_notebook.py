@@ -10,7 +10,7 @@ from nbclient import NotebookClient
 
 import skyline_viz as sv
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.rerun_internals import program
+from skyline_viz.viewer.program.rerun_internals import program
 from testing import ROOT, SAMPLES
 from testing.recordings import Read
 

@@ -8,8 +8,9 @@ import pytest
 
 from annotate.server.security import TOKEN_HEADER
 from annotate.store.operations import SetAnchor
-from skyline_viz.viewer import entities, in_memory
-from skyline_viz.viewer.web_viewer import POLICY
+from skyline_viz.viewer import entities
+from skyline_viz.viewer.program import in_memory
+from skyline_viz.viewer.program.web_viewer import POLICY
 from testing.labelling import TOKEN, served, workbench, write_hills
 from testing.recordings import Read
 

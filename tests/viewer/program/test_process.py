@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from skyline_viz.viewer import process as viewer
-from skyline_viz.viewer.rerun_internals import ViewerError
+from skyline_viz.viewer.program import process as viewer
+from skyline_viz.viewer.program.rerun_internals import ViewerError
 
 
 class Clock:

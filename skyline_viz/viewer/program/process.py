@@ -25,7 +25,7 @@ from PIL import Image
 from skyline_viz.files import replacing
 from skyline_viz.system.aftermath import ended, started
 from skyline_viz.system.loopback import LOOPBACK
-from skyline_viz.viewer.rerun_internals import ViewerError, program, viewer_client
+from skyline_viz.viewer.program.rerun_internals import ViewerError, program, viewer_client
 
 if TYPE_CHECKING:
     from rerun.experimental import ViewerClient

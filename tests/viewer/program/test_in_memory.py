@@ -3,7 +3,8 @@
 import numpy as np
 
 import skyline_viz as sv
-from skyline_viz.viewer import entities, in_memory
+from skyline_viz.viewer import entities
+from skyline_viz.viewer.program import in_memory
 from testing.recordings import Read
 
 

@@ -5,8 +5,8 @@ import os
 import pytest
 import rerun as rr
 
-from skyline_viz.viewer import rerun_file
-from skyline_viz.viewer.rerun_file import saved
+from skyline_viz.viewer.program import rerun_file
+from skyline_viz.viewer.program.rerun_file import saved
 from testing.recordings import Read, verify
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="Rerun writes by itself there")

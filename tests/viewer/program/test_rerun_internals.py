@@ -9,12 +9,12 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.cli import main
-from skyline_viz.viewer import rerun_internals
-from skyline_viz.viewer.rerun_internals import PARTS, Part, ViewerError
+from skyline_viz.viewer.program import rerun_internals
+from skyline_viz.viewer.program.rerun_internals import PARTS, Part, ViewerError
 from testing import ROOT
 from testing.recordings import Read
 
-HERE = "skyline_viz/viewer/rerun_internals.py"
+HERE = "skyline_viz/viewer/program/rerun_internals.py"
 PRIVATE = ("rerun_bindings", "rerun_cli", "rerun.experimental", "rerun.blueprint.table")
 
 

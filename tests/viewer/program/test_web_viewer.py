@@ -6,9 +6,9 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from skyline_viz.viewer import process as viewer
-from skyline_viz.viewer.rerun_internals import ViewerError
-from skyline_viz.viewer.web_viewer import POLICY, page_file, served, viewer_program
+from skyline_viz.viewer.program import process as viewer
+from skyline_viz.viewer.program.rerun_internals import ViewerError
+from skyline_viz.viewer.program.web_viewer import POLICY, page_file, served, viewer_program
 
 RECORDINGS = {"one.rrd": b"the first recording", "Z\udcfcrich <b>%.rrd": bytes(300_000)}
 

@@ -18,8 +18,8 @@ from urllib.parse import urlencode
 from skyline_viz.system import local_server
 from skyline_viz.system.local_server import Answer, Request
 from skyline_viz.system.loopback import policy
-from skyline_viz.viewer import process as viewer
-from skyline_viz.viewer.rerun_internals import ViewerError, check_program_for_browsers
+from skyline_viz.viewer.program import process as viewer
+from skyline_viz.viewer.program.rerun_internals import ViewerError, check_program_for_browsers
 
 POLICY = policy(scripts="'wasm-unsafe-eval'", images="blob: data:")
 """Content security policy of the page: the browser itself keeps it from contacting others."""

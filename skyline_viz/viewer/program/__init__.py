@@ -1,0 +1,1 @@
+"""The Rerun viewer as a program: started, served, filled, photographed, and ended."""
