@@ -22,6 +22,7 @@ from benchmarks import (
     cameras,
     causes,
     clicks,
+    confidence,
     filters,
     labelling,
     mended,
@@ -75,6 +76,7 @@ def _parts(
         sky = unseen or SkyModel.small()
         others = [one for name in ("mountains", "uav") if (one := data / name).is_dir()]
         parts["cameras"] = lambda: cameras.measured(data, models, networks)
+        parts["confidence"] = lambda: confidence.measured(data, models)
         parts["accuracy"] = lambda: accuracy.cross_validated(web, sky) + _sky_told(unseen)
         parts["robustness"] = lambda: robustness.varied(web, sky) + _sky_told(unseen)
         parts["mended"] = lambda: mended.measured(data, models)

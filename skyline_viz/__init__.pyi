@@ -13,7 +13,6 @@ from .datasets.layouts import DatasetError as DatasetError
 from .datasets.layouts import DatasetItem as DatasetItem
 from .datasets.layouts import open_dataset as open_dataset
 from .detection import Detection as Detection
-from .detection import FilterDetection as FilterDetection
 from .detection import solve_detection as solve_detection
 from .detector import Detector as Detector
 from .diagnosis.diagnosing import Diagnosis as Diagnosis
@@ -32,6 +31,7 @@ from .evaluation.sweeping import sweep as sweep
 from .evaluation.verdict import Verdict as Verdict
 from .filter_bank import FilterBank as FilterBank
 from .filter_bank import FilterBankError as FilterBankError
+from .filter_detection import FilterDetection as FilterDetection
 from .frames.visibility import Visibility as Visibility
 from .method import Method as Method
 from .method import MethodError as MethodError

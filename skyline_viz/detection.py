@@ -5,44 +5,32 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property, partial
+from functools import cached_property, partial
 from time import perf_counter
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
-import cv2
 import numpy as np
 
 from skyline_viz.arrays import F32, F64, U8, Bool, Int, read_only
-from skyline_viz.colours import bin_legend
+from skyline_viz.certainty.confidence import Confidence, confidence
+from skyline_viz.certainty.uncertainty import Uncertainty, uncertainty
 from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import CostModel
 from skyline_viz.edges import edge_pixels
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.frames.frame import Frame
 from skyline_viz.frames.visibility import Visibility
 from skyline_viz.path import forward_costs, shortest_path
+from skyline_viz.sky_model import SkyModel
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage import (
-    BIN,
-    COHERENCE,
     COST,
     EDGES,
-    FUSED,
-    ORIENTATION,
     PATH,
     SCORE,
-    SKY,
-    STRENGTH,
     Quantity,
     Stage,
 )
-from skyline_viz.tensor import tensor_at, tensor_map
 from skyline_viz.terms import Link
-from skyline_viz.uncertainty import Uncertainty, uncertainty
-
-if TYPE_CHECKING:
-    from skyline_viz.detector import Detector
 
 _STEEPEST = 1 / 12  # change of row between neighbouring columns, as a share of the height
 
@@ -121,10 +109,28 @@ class Detection:
         """``(H, W)`` float64 cost of the cheapest path from the first column to each pixel."""
         return forward_costs(self.cost, self.delta, self.link_weight)
 
+    @cached_property
+    def certainty(self) -> Confidence:
+        """How surely the line is the skyline, and what speaks against it.
+
+        A method without a sky model asks the small one.
+        """
+        link, shown = self.cost_model.link, self._shown()
+        rows = self.skyline.rows
+        return confidence(self._sky_asked(), rows, shown, self.cost, link.delta, link.weight)
+
+    def _sky_asked(self) -> F32:
+        """``(h, w)`` what a sky model says of the photo."""
+        return SkyModel.small().sky(self.photo)
+
+    def _shown(self) -> Bool:
+        """``(W,)`` columns of the picture."""
+        return np.ones(self.photo.shape[1], np.bool_)
+
     @property
-    def confidence(self) -> float | None:
-        """How surely the photo has a skyline, in [0, 1], see `visibility.Visibility.confidence`."""
-        return None if self.visibility is None else self.visibility.confidence
+    def confidence(self) -> float:
+        """Probability that the line is no gross miss, in [0, 1], see `certainty`."""
+        return self.certainty.value
 
     @property
     def delta(self) -> int:
@@ -232,87 +238,6 @@ class Detection:
             non_edge_cost=1.0,
         )
         return replace(found, skyline=skyline)
-
-
-@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
-class FilterDetection(Detection):
-    """What our detector found, and every stage that led to it."""
-
-    strength: F32
-    """``(n,)`` gradient strength, in grey levels a pixel."""
-
-    coherence: F32
-    """``(n,)`` coherence, in [0, 1]."""
-
-    orientation: F32
-    """``(n,)`` orientation of the gradient, in degrees, in [0, 180)."""
-
-    bins: Int
-    """``(n,)`` int32 bin, which is the index of the filter."""
-
-    frame: Frame
-    """The frame around the picture; columns in it are not visible."""
-
-    sky: F32 | None
-    """``(h, w)`` probability of sky of each region of the photo, see `sky_model.SkyModel.sky`; None
-    where the sky model was switched off."""
-
-    thresholds: tuple[float, float]
-    """Canny thresholds that were used."""
-
-    config: DetectorConfig
-    """The configuration that was used."""
-
-    bank: FilterBank
-    """The filter bank that was used."""
-
-    detector: Detector
-    """What found it."""
-
-    @cached_property
-    def starved(self) -> Bool:
-        """``(n,)`` edge pixels in starved bins."""
-        starved: Bool = self.bank.starved[self.bins]
-        return starved
-
-    def _stages(self) -> Iterator[Stage]:
-        if self.sky is not None:
-            yield Stage(SKY, self._sky_map(self.sky), "photo")
-        yield Stage(EDGES, self.edges, "mask")
-        whole = cache(partial(tensor_map, self.photo))  # one for all three
-        for one in (STRENGTH, COHERENCE, ORIENTATION):
-            dense = partial(lambda name: getattr(whole(), name), one.name)
-            at = partial(lambda name, *some: getattr(tensor_at(self.photo, *some), name), one.name)
-            yield Stage(one, getattr(self, one.name), "edges", dense=dense, at=at)
-        yield Stage(BIN, self.bins, "edges", legend=bin_legend(self.bank.bins))
-        yield Stage(SCORE, self.scores, "edges")
-        both = [self.cost_model[name].of_edges() for name in ("score", "strength")]
-        yield Stage(FUSED, np.add(*both, dtype=np.float32), "edges")
-        yield from self._last_stages()
-
-    def _sky_map(self, sky: F32) -> F32:
-        """``(H, W)`` probability of sky of each pixel, between centres of regions; made anew."""
-        read_only(whole := np.asarray(cv2.resize(sky, self.edges.shape[::-1]), np.float32))
-        return whole
-
-    def again(self, config: DetectorConfig) -> FilterDetection:
-        """See `Detector.again`."""
-        return replace(self.detector, config=config, label="").again(self)
-
-    def about(self) -> list[str]:
-        """How it was made, in short sentences: settings, and where the filters are from."""
-        changed = ", ".join(self.config.changed()) or "default settings"
-        settings = "the paper's settings" if self.config == DetectorConfig.paper() else changed
-        low, high = self.thresholds
-        made = self.bank.provenance
-        photos = f"{made.images} photos of {made.dataset}" if made.images else "an unknown source"
-        sky = [] if self.sky is None else [f"Sky model {self.detector.sky.name}."]
-        return [
-            f"{settings.capitalize()}.",
-            *sky,
-            f"Canny thresholds {low:.0f} and {high:.0f}.",
-            f"Filters learned from {photos}.",
-        ]
 
 
 def solve_detection(

@@ -14,10 +14,11 @@ from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.cost import CostModel, Seen
 from skyline_viz.datasets.item import Item
-from skyline_viz.detection import FilterDetection, timed
+from skyline_viz.detection import timed
 from skyline_viz.edges import candidate_edges, edge_pixels, edge_settings, frame_of, to_grey
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
+from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.frames.frame import Frame, around_frame
 from skyline_viz.frames.visibility import visibility
 from skyline_viz.path import shortest_path
@@ -365,8 +366,17 @@ class Detector:
         if found and same and found.sky is not None:
             return found.sky
         with timed(seconds, "sky"):
-            inside = np.ascontiguousarray(photo[frame.inside(photo)])
-            return around_frame(self.sky.sky(inside), frame, *photo.shape[:2])
+            return self.sky_of(photo, frame)
+
+    def sky_of(self, photo: U8, frame: Frame) -> F32:
+        """``(h, w)`` the map of the sky model, which sees the picture inside a frame alone.
+
+        Args:
+            photo: ``(H, W, 3)`` uint8 RGB.
+            frame: Its frame.
+        """
+        inside = np.ascontiguousarray(photo[frame.inside(photo)])
+        return around_frame(self.sky.sky(inside), frame, *photo.shape[:2])
 
 
 def _edges_alike(config: DetectorConfig, sky: F32 | None, found: FilterDetection) -> bool:

@@ -45,7 +45,7 @@ class Open:
     pass_number: int = 1
     """1 for the first pass over the photos, 2 to label them a second time."""
 
-    order: Literal["name", "margin", "random"] = "name"
+    order: Literal["name", "confidence", "random"] = "name"
     """In which order: by name, the least certain proposal first, or shuffled."""
 
     blind: float = 0.0
@@ -119,7 +119,7 @@ class Open:
         most = self.max_megapixels * 1e6
         every = bench.photos.values()
         say_too_large([one.name for one in every if one.height * one.width > most], PROGRAM)
-        if self.order == "margin":
+        if self.order == "confidence":
             propose_all(bench)
         progress = bench.progress(bench.cards())
         left = progress.total - progress.done
@@ -130,11 +130,11 @@ class Open:
 
 
 def propose_all(bench: Workbench) -> None:
-    """Make all proposals that are missing, so that their margins can be compared."""
+    """Make all proposals that are missing, so that they can be compared."""
     from skyline_viz.running.batch import sentence
     from skyline_viz.running.progress import ProgressBar
 
-    waiting = [one for one in bench.cards() if one.margin is None and one.status == "to do"]
+    waiting = [one for one in bench.cards() if one.confidence is None and one.status == "to do"]
     with ProgressBar(len(waiting), "proposing") as bar:
         for card in waiting:
             try:

@@ -28,9 +28,9 @@ from annotate.engine.guide import Guide
 from annotate.engine.plan import Plan, Run, make_plan
 from annotate.engine.tables import BACKWARD, FORWARD, Tables
 from skyline_viz.arrays import F32, F64, U8, Int, check_photo
+from skyline_viz.certainty.other_lines import OtherLine, other_lines
 from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
 from skyline_viz.detection import Detection
-from skyline_viz.diagnosis.other_lines import OtherLine, other_lines
 from skyline_viz.method import Method
 from skyline_viz.path import cheapest_end, trace
 from skyline_viz.skyline import Skyline
@@ -66,6 +66,8 @@ class LiveWire:
         self.doubt = ""
         """What the detector says of its proposal where it is no skyline, or not everywhere; which
         columns are visible is for the annotator to say."""
+        self.confidence = 0.0
+        """Probability that the proposal is no gross miss; 0 without one."""
         self.detection: Detection | None = None
         """What the proposal is from, where it was to be kept."""
         if detector is None:
@@ -75,6 +77,7 @@ class LiveWire:
             cost = detection.cost
             self.proposal = detection.skyline
             self.doubt = detection.visibility.doubt if detection.visibility else ""
+            self.confidence = detection.confidence
             self._delta = min(detection.delta, self.height - 1)
             link_weight = float(detection.link_weight)
             self.detection = detection if keep else None

@@ -163,7 +163,8 @@ def _drop_proposals(database: sqlite3.Connection) -> list[str]:
             if isinstance(error.__cause__, UnnamedClassError):
                 continue  # nothing is damaged, and who wrote that class can name it
             database.execute(
-                "UPDATE labels SET proposal = NULL, detector = NULL, margin = NULL WHERE id = ?",
+                "UPDATE labels SET proposal = NULL, detector = NULL, confidence = NULL"
+                " WHERE id = ?",
                 (label,),
             )
             said.append(f"the proposal of {named(database, label)} was damaged, and is forgotten.")

@@ -262,7 +262,7 @@ def _make_consistent(found: Salvage) -> None:
     """Leave out, with a sentence, what refers to rows that are lost."""
     labels = found.labels
     proposals = labels.execute(
-        "UPDATE labels SET detector = NULL, proposal = NULL, margin = NULL"
+        "UPDATE labels SET detector = NULL, proposal = NULL, confidence = NULL"
         " WHERE detector NOT IN (SELECT id FROM detectors)"
     ).rowcount
     if proposals:

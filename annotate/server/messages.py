@@ -18,8 +18,8 @@ from annotate.work.images import BAND, TILE
 from annotate.work.session import Session
 from annotate.work.workbench import Progress
 from skyline_viz.arrays import F64, Int
+from skyline_viz.certainty.other_lines import OtherLine
 from skyline_viz.diagnosis.explanation import Explanation, Filtered
-from skyline_viz.diagnosis.other_lines import OtherLine
 from skyline_viz.overlay import ALTERNATIVE, ANCHOR, HALO, PATH, css
 from skyline_viz.system.memory import photo_limit
 
@@ -126,7 +126,7 @@ class ShownPhoto(BaseModel):
     height: int
     status: Status
     tags: tuple[str, ...]
-    margin: float | None
+    confidence: float | None
     blind: bool
     missing: bool
     too_large: bool
@@ -147,7 +147,7 @@ class ShownPhoto(BaseModel):
             height=photo.height,
             status=card.status,  # type: ignore[arg-type]  # the log holds nothing else
             tags=card.tags,
-            margin=finite(card.margin),
+            confidence=card.confidence,
             blind=card.blind,
             missing=missing,
             too_large=photo.height * photo.width > photo_limit() * 1e6,

@@ -209,7 +209,7 @@ export interface ShownPhoto {
   height: number;
   status: Status;
   tags: string[];
-  margin: number | null;
+  confidence: number | null;
   blind: boolean;
   missing: boolean;
   too_large: boolean;

@@ -18,8 +18,8 @@ class Card:
 
     status: str
     tags: tuple[str, ...]
-    margin: float | None
-    """How sure the detector was of its proposal; None where there is none yet."""
+    confidence: float | None
+    """Probability that the proposal is no gross miss; None where there is none yet."""
 
     blind: bool
     seconds: float
@@ -32,7 +32,7 @@ class _Begun:
     """What the table of labels says of a label."""
 
     label: int | None = None
-    margin: float | None = None
+    confidence: float | None = None
     blind: bool = False
 
 
@@ -41,10 +41,12 @@ def labels_of_pass(
 ) -> Mapping[int, _Begun]:
     """Labels of a pass, by the id of their photo."""
     rows = database.execute(
-        "SELECT photo, id, margin, blind FROM labels WHERE annotator = ? AND number = ?",
+        "SELECT photo, id, confidence, blind FROM labels WHERE annotator = ? AND number = ?",
         (annotator, number),
     )
-    return {photo: _Begun(label, margin, bool(blind)) for photo, label, margin, blind in rows}
+    return {
+        photo: _Begun(label, confidence, bool(blind)) for photo, label, confidence, blind in rows
+    }
 
 
 def cards_of(
@@ -67,5 +69,7 @@ def cards_of(
         where = stand.get(one.label or 0, Standing())
         if one.label is not None and one.label in unreadable:  # its standing may look well
             where = Standing("needs review", problem=unreadable[one.label])
-        cards[photo.id] = Card(photo, one.label, margin=one.margin, blind=one.blind, **vars(where))
+        cards[photo.id] = Card(
+            photo, one.label, confidence=one.confidence, blind=one.blind, **vars(where)
+        )
     return cards

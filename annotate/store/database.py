@@ -106,6 +106,10 @@ MIGRATIONS = (
     CREATE TABLE folder (id TEXT NOT NULL);  -- tells these labels from those of other folders
     INSERT INTO folder VALUES (lower(hex(randomblob(16))));
     """,
+    """
+    ALTER TABLE labels RENAME COLUMN margin TO confidence;  -- of the proposal, in [0, 1]
+    UPDATE labels SET confidence = NULL;                    -- until a photo is proposed for again
+    """,
 )
 """What leads from each version of the schema to the next; the number of them is the version."""
 

@@ -175,7 +175,7 @@ class Store:
             row = database.execute("SELECT blind FROM labels WHERE id = ?", (label,)).fetchone()
             return bool(row[0])
 
-    def propose(self, label: int, line: Line, detector: Method | None, margin: float) -> None:
+    def propose(self, label: int, line: Line, detector: Method | None, confidence: float) -> None:
         """Keep the proposal of a label, and what made it.
 
         Raises:
@@ -188,8 +188,8 @@ class Store:
                 )
             made_by = None if detector is None else keep_detector(database, detector)
             database.execute(
-                "UPDATE labels SET proposal = ?, detector = ?, margin = ? WHERE id = ?",
-                (line.packed(), made_by, margin, label),
+                "UPDATE labels SET proposal = ?, detector = ?, confidence = ? WHERE id = ?",
+                (line.packed(), made_by, confidence, label),
             )
 
     def detector(self, label: int) -> Method | None:

@@ -16,7 +16,6 @@ from annotate.store.operations import Logged, Open, Operation, Redo, SetStatus, 
 from annotate.store.store import Photo, Store
 from skyline_viz.arrays import F64, U8
 from skyline_viz.constraints import PathError
-from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.method import Method
 from skyline_viz.methods.registry import method_digest
 
@@ -60,8 +59,7 @@ class Session:
         self.wire = LiveWire(self.pixels, None if blind else self.detector, keep=keep)
         self.state = store.state(label)
         if self.state.revision == 0 and not blind:
-            margin = Verdict.of(self.wire.skyline, self.wire.margin, photo.height, None).margin
-            store.propose(label, self._line(), self.detector, margin)
+            store.propose(label, self._line(), self.detector, self.wire.confidence)
             self.state = store.state(label)
         self._resume()
 

@@ -29,7 +29,7 @@ from skyline_viz.method import Method
 from skyline_viz.photo import PhotoError
 from skyline_viz.system.memory import photo_limit
 
-Order = Literal["name", "margin", "random"]
+Order = Literal["name", "confidence", "random"]
 """In which order photos are labelled: by name, the least certain first, or shuffled."""
 
 _SMALL = np.repeat(np.arange(64, dtype=np.uint8) // 32 * 200, 96 * 3).reshape(64, 96, 3)
@@ -123,9 +123,9 @@ class Workbench:
         who = self.assignment
         found = self.store.cards(who.annotator, who.number)
         cards = [found[photo] for photo in self.photos if photo in found]
-        if who.order == "margin":
+        if who.order == "confidence":
             unknown = float("inf")
-            cards.sort(key=lambda card: unknown if card.margin is None else card.margin)
+            cards.sort(key=lambda card: unknown if card.confidence is None else card.confidence)
         elif who.order == "random":
             places = np.random.default_rng([who.seed, 2]).permutation(len(cards))
             cards = [cards[place] for place in places.tolist()]
@@ -222,7 +222,7 @@ class Workbench:
         changed = 0
         for card in waiting:
             self.close_photo(card.photo.id)
-            before = card.margin
+            before = card.confidence
             worked_on = self.session(card.photo.id).state.revision > 0  # and undone: it stays
             changed += before is not None and not worked_on
         return changed

@@ -12,10 +12,11 @@ from skyline_viz.running.progress import ProgressBar
 if TYPE_CHECKING:
     import rerun as rr
 
-    from skyline_viz.detection import Detection, FilterDetection
+    from skyline_viz.detection import Detection
     from skyline_viz.diagnosis.diagnosing import Diagnosis
     from skyline_viz.diagnosis.sweep import Sweep
     from skyline_viz.filter_bank import FilterBank
+    from skyline_viz.filter_detection import FilterDetection
     from skyline_viz.method import Method
     from skyline_viz.skyline import Skyline
     from skyline_viz.viewer.contents import Fidelity, MethodContents

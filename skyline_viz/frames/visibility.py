@@ -38,7 +38,7 @@ Case: TypeAlias = Literal["skyline", "does not cross", "no sky", "no terrain"]
 want of sky or of terrain."""
 
 PHOTO_THRESHOLD = 0.5
-"""A photo of less confidence has no skyline."""
+"""A photo of less evidence has no skyline."""
 
 COLUMN_THRESHOLD = 0.3
 """In a column of less evidence the line is not visible."""
@@ -62,7 +62,7 @@ RIM = 0.01
 what there is of sky or terrain counts in proportion."""
 
 SUREST = 0.25
-"""The confidence of a photo is what this share of its columns reaches."""
+"""The evidence of a photo is what this share of its columns reaches."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ class Visibility:
     visible: Bool
     """``(W,)`` False where the line cannot be seen."""
 
-    confidence: float
+    surest: float
     """How surely the photo has a skyline, in [0, 1]: the evidence that the surest quarter of its
     columns reaches."""
 
@@ -110,7 +110,7 @@ class Visibility:
     @property
     def said(self) -> str:
         """What the photo shows, in one sentence."""
-        sure = f"confidence {self.confidence:.2f}"
+        sure = f"evidence {self.surest:.2f}"
         if self.case == "skyline":
             return f"The skyline crosses the photo ({sure})."
         if self.case == "does not cross":
@@ -155,17 +155,17 @@ def visibility(
     evidence *= clear.astype(np.float32)
     picture = evidence[shown]
     place = len(picture) - 1 - int(SUREST * (len(picture) - 1))
-    confidence = float(np.partition(picture, place)[place])
-    if confidence < PHOTO_THRESHOLD:
+    surest = float(np.partition(picture, place)[place])
+    if surest < PHOTO_THRESHOLD:
         nowhere = np.zeros(len(evidence), np.bool_)
-        return Visibility(evidence, nowhere, confidence, _missing(sky), 0.0)
+        return Visibility(evidence, nowhere, surest, _missing(sky), 0.0)
     visible = shown & (evidence >= COLUMN_THRESHOLD)
     for first, last in runs(shown & ~visible):
         if last - first + 1 < SHORTEST * len(picture):
             visible[first : last + 1] = True
     share = float(visible.sum() / shown.sum())
     return Visibility(
-        evidence, visible, confidence, "skyline" if share == 1 else "does not cross", share
+        evidence, visible, surest, "skyline" if share == 1 else "does not cross", share
     )
 
 

@@ -42,7 +42,7 @@ from skyline_viz.viewer.diagnosis_recording import log_diagnosis
 from skyline_viz.viewer.recording import log_detection, new_recording
 from skyline_viz.viewer.report import listed_segments
 
-VERSION = 6
+VERSION = 7
 """Of recordings and gallery.json; all of an earlier one are made anew."""
 
 _SAVE_EVERY = 1.0  # seconds
@@ -82,11 +82,10 @@ class Entry:
     once, that of the main segment first."""
 
     confidence: float | None = None
-    """How surely it has a skyline, see `visibility.Visibility`; None of methods that cannot
-    tell."""
+    """Probability that its line is no gross miss, see `certainty.confidence`."""
 
     shows: Case | None = None
-    """Whether it has one, and whether it is visible everywhere; None like the confidence."""
+    """Whether it has a skyline, and one visible everywhere; None of methods that cannot tell."""
 
     method: str = "default"
     """Name of the method."""

@@ -233,12 +233,12 @@ def _cards(
         against.append(tables.Column("other_a_err", name="its A_err (px)"))
     shown = [
         tables.Column("shows", name="shows"),
-        tables.Column("confidence", name="confidence"),
     ]
     columns = [
         tables.Column("photo", name="skyline", column_type=tables.PreviewCell(thumbnail)),
         *against,
         *(errors if truth else []),
+        tables.Column("confidence", name="confidence"),
         tables.Column("margin", name="margin"),
         *(shown if told else []),
         tables.Column("method", name="by"),
@@ -250,7 +250,7 @@ def _cards(
         in_table.append(tables.Column("causes"))  # for filters; too long for cards
     order = tables.SortBy("a_err", direction="descending")
     if not truth:
-        order = tables.SortBy("margin", direction="ascending")
+        order = tables.SortBy("confidence", direction="ascending")
     if compared:
         order = tables.SortBy("difference", direction="descending")
     blueprint: TableBlueprint = tables.TableBlueprint(

@@ -19,7 +19,7 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from skyline_viz.stage import ADDED, COST, FUSED, SKY, Quantity
+from skyline_viz.stage import ADDED, COST, FUSED, Quantity
 from skyline_viz.system.names import shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents, MethodContents
@@ -330,8 +330,7 @@ def _stages_of(one: MethodContents) -> str:
 def _photos_tab(contents: Contents) -> rrb.Container:
     metrics = [("a_err", "A_err of each photo (px)")] if contents.truth else []
     metrics.append(("margin", "Margin of each photo (cost)"))
-    if SKY in contents.stages:  # without it, nobody can tell
-        metrics.append(("confidence", "Confidence that each photo has a skyline"))
+    metrics.append(("confidence", "Confidence that the line of each photo is the skyline"))
     plots = [
         rrb.TimeSeriesView(origin=f"{entities.METRICS}/{metric}", name=title)
         for metric, title in metrics

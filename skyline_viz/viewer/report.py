@@ -32,6 +32,7 @@ def report(name: str, detection: Detection, verdict: Verdict, shown: int, near: 
         *_verdict(verdict, height),
         "",
         *([f"{detection.visibility.said}  "] if detection.visibility else []),
+        f"{detection.certainty.said}  ",
         f"**Margin** {verdict.margin:.3g}, least sure at column {verdict.unsure_column}  ",
         f"**Edges** {edges:,} pixels ({edges / (width * height):.0%})  ",
         *([f"{near or f'Maps show the {shown:,} cheapest of their columns'}  "] if few else []),

@@ -45,7 +45,7 @@ def test_a_photo_without_a_skyline_is_said_to_be_one(say, tmp_path, monkeypatch)
     monkeypatch.setattr(SkyModel, "sky", NoSky.sky)
     status, out, err = say("detect", photo, "--out", "out")
     assert (status, err) == (0, "")
-    assert "a: No skyline is visible: there seems to be no sky (confidence 0.0" in out
+    assert "a: No skyline is visible: there seems to be no sky (evidence 0.0" in out
     assert len(out.splitlines()) == 2
     assert not sv.Skyline.read_csv(tmp_path / "out" / "a.csv").visible.any()
     status, out, err = say("detect", photo, "--out", "out", "--preset", "paper")

@@ -79,7 +79,7 @@ def test_a_skyline_is_visible_from_side_to_side():
     found = looked_at(sky_above(rows), rows)
     assert (found.case, found.doubt) == ("skyline", "")
     assert found.visible.all()
-    assert found.confidence == pytest.approx(1)
+    assert found.surest == pytest.approx(1)
 
 
 @pytest.mark.parametrize(("value", "case"), [(0.0, "no sky"), (1.0, "no terrain")])
@@ -87,7 +87,7 @@ def test_a_photo_of_one_thing_only_has_no_skyline(value, case):
     found = looked_at(np.full((HEIGHT, WIDTH), value, np.float32), 40)
     assert found.case == case
     assert not found.visible.any()
-    assert found.confidence < 0.1
+    assert found.surest < 0.1
     assert case in found.doubt
 
 
@@ -124,9 +124,9 @@ def test_a_sky_as_full_of_edges_as_the_terrain_is_doubted():
     rows = np.full(WIDTH, 48)
     sky = sky_above(rows) * np.float32(0.7)
     assert looked_at(sky, rows, below=40).case == "skyline"
-    assert looked_at(sky, rows, below=40, above=40).confidence < 0.5
+    assert looked_at(sky, rows, below=40, above=40).surest < 0.5
     few = looked_at(sky, rows, below=2, above=2)  # grain
-    assert few.confidence > 0.7 * looked_at(sky, rows, below=2).confidence
+    assert few.surest > 0.7 * looked_at(sky, rows, below=2).surest
 
 
 def test_a_photo_without_an_edge_has_no_skyline():
@@ -138,7 +138,7 @@ def test_a_photo_without_an_edge_has_no_skyline():
 def test_the_height_of_the_photo_does_not_matter(height):
     rows = np.full(WIDTH, height / 2)
     one = looked_at(sky_above(np.full(WIDTH, 48)), rows, below=3, height=height)
-    assert one.confidence == pytest.approx(1, abs=0.05)
+    assert one.surest == pytest.approx(1, abs=0.05)
 
 
 def test_arrays_are_frozen():
@@ -152,13 +152,13 @@ def test_arrays_are_frozen():
 
 
 @given(cases())
-def test_evidence_and_confidence_are_shares_and_decide(case):
+def test_evidence_is_shares_and_decide(case):
     found = visibility(*case)
     assert isinstance(found, Visibility)
     assert found.evidence.shape == found.visible.shape == case[1].shape
     assert ((found.evidence >= 0) & (found.evidence <= 1)).all()
-    assert found.evidence.min() <= found.confidence <= found.evidence.max()
-    if found.confidence < PHOTO_THRESHOLD:
+    assert found.evidence.min() <= found.surest <= found.evidence.max()
+    if found.surest < PHOTO_THRESHOLD:
         assert found.case in ("no sky", "no terrain")
         assert not found.visible.any()
     else:
@@ -212,7 +212,7 @@ def test_more_sky_above_and_less_below_never_lowers_the_evidence(case, share):
 def test_what_is_no_skyline_is_marked_and_said():
     detection = unseen().detect(mountains()[0])
     assert detection.visibility.case == "no sky"
-    assert detection.confidence < 0.1
+    assert detection.visibility.surest < 0.1
     assert not detection.skyline.visible.any()
     assert "visible" in repr(detection.skyline)
 
@@ -229,7 +229,7 @@ def test_columns_that_do_not_show_the_line_are_marked():
 @pytest.mark.parametrize("config", [DetectorConfig.paper(), DetectorConfig(sky_weight=0)])
 def test_without_a_sky_model_every_column_is_visible(config):
     detection = replace(unseen(), config=config).detect(mountains()[0])
-    assert (detection.visibility, detection.confidence) == (None, None)
+    assert detection.visibility is None
     assert detection.skyline.visible.all()
 
 

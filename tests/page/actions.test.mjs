@@ -172,7 +172,7 @@ test("without anything done there is nothing to undo or redo, and while a photo 
 });
 
 test("what the detector doubts of the next photo's proposal is said with it", async () => {
-  server.documents.get(2).doubt = "No skyline is visible: there seems to be no sky (confidence 0.10).";
+  server.documents.get(2).doubt = "No skyline is visible: there seems to be no sky (evidence 0.10).";
   await actions.finish("accepted");
   assert.match(said.at(-1).text, /^hill-1.png is accepted. The detector says of this one: No skyline is visible/);
 });

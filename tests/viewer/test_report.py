@@ -84,4 +84,4 @@ def test_settings_that_differ_are_named():
 def test_it_says_whether_there_is_a_skyline(photo):
     assert "**" not in unseen().detect(photo).visibility.said
     assert "No skyline is visible: there seems to be no sky" in told(unseen().detect(photo))
-    assert "confidence" not in told(EdgesOnly().detect(photo))
+    assert "evidence" not in told(EdgesOnly().detect(photo))

@@ -21,9 +21,9 @@ def bench(tmp_path):
 def test_proposals_are_made_ahead_and_a_photo_that_fails_is_said(bench, capsys):
     (bench.store.folder / "hill-0.png").unlink()
     propose_all(bench)
-    margins = {card.photo.name: card.margin for card in bench.cards()}
-    assert margins["hill-0.png"] is None
-    assert margins["hill-1.png"] is not None
+    told = {card.photo.name: card.confidence for card in bench.cards()}
+    assert told["hill-0.png"] is None
+    assert told["hill-1.png"] is not None
     assert "hill-0.png" in capsys.readouterr().err
 
 

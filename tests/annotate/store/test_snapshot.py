@@ -90,6 +90,7 @@ def test_labels_of_an_older_version_are_read_and_stay_as_they_are(labelled, caps
             "DROP TABLE set_aside",
             "ALTER TABLE photos DROP COLUMN pixels",
             "ALTER TABLE photos DROP COLUMN touched",
+            "ALTER TABLE labels RENAME COLUMN confidence TO margin",
             "PRAGMA user_version = 2",
         ):
             database.execute(statement)

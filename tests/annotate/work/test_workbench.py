@@ -14,11 +14,11 @@ def folder(tmp_path):
 
 
 def test_the_least_certain_photo_comes_first(folder):
-    bench = workbench(folder, order="margin")
+    bench = workbench(folder, order="confidence")
     propose_all(bench)
-    margins = [card.margin for card in bench.cards()]
-    assert None not in margins
-    assert margins == sorted(margins)
+    confidences = [card.confidence for card in bench.cards()]
+    assert None not in confidences
+    assert confidences == sorted(confidences)
     bench.close()
 
 

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from skyline_viz.certainty.other_lines import other_lines
 from skyline_viz.constraints import Anchor, Constraints
 from skyline_viz.detector import Detector
-from skyline_viz.diagnosis.other_lines import other_lines
 from skyline_viz.path import shortest_path
 from testing.examples import examples
 from testing.labelling import hills

@@ -4,10 +4,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-import skyline_viz.uncertainty as module
+import skyline_viz.certainty.uncertainty as module
+from skyline_viz.certainty.uncertainty import uncertainty
 from skyline_viz.constraints import PathError
 from skyline_viz.path import margins, path_tables, shortest_path
-from skyline_viz.uncertainty import uncertainty
 
 COSTS = hnp.arrays(
     np.float64,

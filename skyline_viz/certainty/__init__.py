@@ -1,0 +1,1 @@
+"""How sure a line is: column by column, beside other lines, and as a whole."""
