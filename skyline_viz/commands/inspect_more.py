@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from skyline_viz.command_line.messages import tell
 from skyline_viz.running.progress import ProgressBar
 
@@ -36,6 +38,18 @@ def log_diagnosis(
         mended = most_helpful(found, truth, diagnosis)
         log_it(recording, diagnosis, found, truth, name, mended=mended)
     return diagnosis
+
+
+def log_other_lines(recording: rr.RecordingStream, found: Detection, truth: Skyline | None) -> int:
+    """Search the best lines along other ridges, and log them; return how many there are."""
+    from skyline_viz.diagnosis.other_lines import other_lines
+    from skyline_viz.viewer.lines_recording import log_lines
+
+    height = len(found.photo)
+    rows = found.skyline.pixel_rows(height).clip(0, height - 1).astype(np.int32)
+    lines = other_lines(found.cost, found.delta, found.link_weight, rows)
+    log_lines(recording, found, lines, truth)
+    return len(lines)
 
 
 def log_methods(

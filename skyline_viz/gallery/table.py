@@ -16,13 +16,16 @@ import pyarrow as pa
 import rerun as rr
 import rerun.blueprint as rrb
 
+from skyline_viz.gallery.better_worse import outcome
+from skyline_viz.gallery.entry import Entry
 from skyline_viz.gallery.flags import Flag, read_flags
-from skyline_viz.gallery.store import Entry, Gallery
+from skyline_viz.gallery.store import Gallery
 from skyline_viz.system.aftermath import passing_temporaries
 from skyline_viz.system.loopback import LOOPBACK
 from skyline_viz.system.names import recording_id, shortened, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.blueprints import detection_blueprint
+from skyline_viz.viewer.comparison import LEAN
 from skyline_viz.viewer.contents import Contents
 from skyline_viz.viewer.program.process import free_port
 from skyline_viz.viewer.program.rerun_internals import card_parts
@@ -128,7 +131,9 @@ def contents_of(entries: Sequence[Entry], truth: bool) -> Contents:
         truth=truth,
         bank=False,
         stages=first.stages,
+        first=first.method,
         compared=first.compared,
+        apart=LEAN if first.compared else (),
         diagnosed=any(entry.causes for entry in entries),
         stacked_costs=False,
     )
@@ -149,6 +154,10 @@ def _schema(index: str) -> pa.Schema:
             pa.field("worst", pa.utf8()),
             pa.field("difference", pa.float32()),
             pa.field("other_a_err", pa.float32()),
+            pa.field("change", pa.float32()),
+            pa.field("outcome", pa.utf8()),
+            pa.field("parts_at", pa.utf8()),
+            pa.field("turned_by", pa.utf8()),
             pa.field("margin", pa.float32()),
             pa.field("confidence", pa.float32()),
             pa.field("shows", pa.utf8()),
@@ -176,6 +185,10 @@ def _columns(
         "worst": [_worst(entry) for entry in entries],
         "difference": [_rounded(one.difference) for one in entries],
         "other_a_err": [_rounded(one.other_a_err) for one in entries],
+        "change": [_rounded(one.change) for one in entries],
+        "outcome": [outcome(one) for one in entries],
+        "parts_at": [shown_in_viewer(one.parts_at) or "nowhere" for one in entries],
+        "turned_by": [shown_in_viewer(one.turned_by) or "-" for one in entries],
         "method": [shown_in_viewer(shortened(one.method)) for one in entries],
         "margin": [round(entry.verdict.margin, 2) for entry in entries],
         "confidence": [_rounded(one.confidence) for one in entries],
@@ -230,7 +243,16 @@ def _cards(
         name = shown_in_viewer(f"yellow is {compared}, apart (px)")
         against.append(tables.Column("difference", name=name))
     if compared and truth:
-        against.append(tables.Column("other_a_err", name="its A_err (px)"))
+        against += [
+            tables.Column("other_a_err", name="its A_err (px)"),
+            tables.Column("change", name="change of A_err (px)"),
+            tables.Column("outcome", name="it is"),
+        ]
+    if compared:
+        against += [
+            tables.Column("parts_at", name="they part at"),
+            tables.Column("turned_by", name="turned by"),
+        ]
     shown = [
         tables.Column("shows", name="shows"),
         tables.Column("confidence", name="confidence"),
@@ -252,7 +274,7 @@ def _cards(
     if not truth:
         order = tables.SortBy("margin", direction="ascending")
     if compared:
-        order = tables.SortBy("difference", direction="descending")
+        order = tables.SortBy("change" if truth else "difference", direction="descending")
     blueprint: TableBlueprint = tables.TableBlueprint(
         card_layout=tables.CardLayout(title="name", link="photo", fields=columns),
         table_layout=tables.TableLayout(columns=in_table),

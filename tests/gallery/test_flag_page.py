@@ -13,9 +13,10 @@ from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.gallery import flag_page as module
+from skyline_viz.gallery.entry import Entry
 from skyline_viz.gallery.flag_page import POLICY, about, flag_page
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
-from skyline_viz.gallery.store import Entry, Gallery
+from skyline_viz.gallery.store import Gallery
 
 NAMES = ["hash#1", "plain"]
 

@@ -12,8 +12,9 @@ from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.gallery.documents import GalleryError
+from skyline_viz.gallery.entry import Entry, by_need
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
-from skyline_viz.gallery.store import VERSION, Entry, Gallery, by_need
+from skyline_viz.gallery.store import VERSION, Gallery
 from skyline_viz.running.batch import Failure
 from skyline_viz.viewer import entities
 from testing.recordings import Read, verify

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from skyline_viz.evaluation.verdict import Verdict
-from skyline_viz.gallery.store import Entry
+from skyline_viz.gallery.entry import Entry
 from skyline_viz.gallery.table import contents_of
 from skyline_viz.stage import OURS
 from skyline_viz.viewer.blueprints import detection_blueprint

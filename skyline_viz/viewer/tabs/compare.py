@@ -1,0 +1,110 @@
+"""Tabs of two detections: *Compare*, where they part, and *Side by side*, the stages of both."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint as rrb
+
+from skyline_viz.stage import EDGES, Quantity
+from skyline_viz.system.names import shortened, shown_in_viewer
+from skyline_viz.viewer import entities
+from skyline_viz.viewer.contents import Contents
+from skyline_viz.viewer.entities import below
+
+_BLACK = (12, 12, 12)
+_THIN = 0.6  # half the width of a line on a map, in points of the screen
+_MOST = 24  # characters of a name in a title
+
+
+def compare_tab(contents: Contents) -> rrb.Container:
+    """Both lines on the photo and on every map of what differs, and where they part."""
+    first, second = (shortened(one, _MOST) for one in (contents.first, contents.compared))
+    truth = ", turquoise: truth" if contents.truth else ""
+    lines = [entities.PATH, entities.ALTERNATIVE, *([entities.TRUTH] if contents.truth else [])]
+    photo = _view(
+        f"Magenta: {first}, yellow: {second}{truth}",
+        [entities.PHOTO, *(f"{line}/**" for line in lines)],
+    )
+    maps = [_difference(one, lines, first, second) for one in contents.apart]
+    text = rrb.TextDocumentView(origin=entities.COMPARISON, name="Where they part")
+    shape = contents.width / contents.height
+    if not maps:
+        return rrb.Horizontal(photo, text, column_shares=[3, 2], name="Compare")
+    pictures: rrb.Container
+    if shape < 0.9:  # as high as the window
+        pictures = rrb.Horizontal(photo, _in_rows(maps, 3), column_shares=[2, 3])
+    else:
+        columns = 2 if len(maps) < 5 else 3 if shape > 1.6 else 4
+        rows = -(-len(maps) // columns)
+        pictures = rrb.Vertical(photo, _in_rows(maps, columns), row_shares=[4, 1 + 2 * rows])
+    return rrb.Horizontal(pictures, text, column_shares=[5, 3], name="Compare")
+
+
+def side_by_side_tab(contents: Contents) -> rrb.Container:
+    """The stages of both detections, each beside that of the other."""
+    views = []
+    both = dict.fromkeys([*contents.stages, *contents.compared_stages])
+    stages = [one for one in both if "Stages" in one.tabs and one.group != "tensor"]
+    for one in stages:
+        title, stage = one.word or one.name, entities.of_quantity(one)
+        views += [
+            _view(f"{contents.first}: {title}", [stage, f"{entities.PATH}/**"]),
+            _view(
+                f"{contents.compared}: {title}",
+                [below(entities.OTHER, stage), f"{entities.ALTERNATIVE}/**"],
+            ),
+        ]
+    reports = [
+        rrb.TextDocumentView(origin=origin, name=shown_in_viewer(f"Report of {name}"))
+        for name, origin in (
+            (contents.first, entities.REPORT),
+            (contents.compared, below(entities.OTHER, entities.REPORT)),
+        )
+    ]
+    if contents.width > 1.6 * contents.height:
+        return rrb.Horizontal(
+            rrb.Grid(*views, grid_columns=2),
+            rrb.Vertical(*reports),
+            column_shares=[3, 1],
+            name="Side by side",
+        )
+    above, under = views[::2], views[1::2]
+    rows = [
+        rrb.Horizontal(*row, report) for row, report in zip((above, under), reports, strict=True)
+    ]
+    return rrb.Vertical(*rows, name="Side by side")
+
+
+def _difference(one: Quantity, lines: Sequence[str], first: str, second: str) -> rrb.View:
+    """A map of what the second has more, with both lines on it, so thin that it stays in sight."""
+    title = f"{one.about}: {one.low:g} blue to +{one.high:g} red{one.unit}"
+    if one.name == EDGES.name:
+        title = f"Edges: blue {first} alone, red {second} alone"
+    elif one.high is None:
+        title = f"{one.about}: blue less, red more"
+    thin = rr.LineStrips2D.from_fields(radii=[-_THIN]).visualizer()
+    return rrb.Spatial2DView(
+        origin="/",
+        contents=[f"+ /{entity}" for entity in (entities.of_quantity(one), *lines)],
+        name=shown_in_viewer(title),
+        background=_BLACK,
+        overrides={f"/{line}": thin for line in lines},
+    )
+
+
+def _in_rows(views: Sequence[rrb.View], columns: int) -> rrb.Container:
+    """Views in rows of so many at the most, each as full as the others or by one less."""
+    rows = np.array_split(np.arange(len(views)), -(-len(views) // columns))
+    return rrb.Vertical(*(rrb.Horizontal(*(views[at] for at in row)) for row in rows))
+
+
+def _view(title: str, shown: Iterable[str]) -> rrb.View:
+    return rrb.Spatial2DView(
+        origin="/",
+        contents=[f"+ /{entity}" for entity in shown],
+        name=shown_in_viewer(title),
+        background=_BLACK,
+    )
