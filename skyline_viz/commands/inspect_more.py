@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from skyline_viz.command_line.messages import tell
 from skyline_viz.running.progress import ProgressBar
 
@@ -42,6 +40,8 @@ def log_diagnosis(
 
 def log_other_lines(recording: rr.RecordingStream, found: Detection, truth: Skyline | None) -> int:
     """Search the best lines along other ridges, and log them; return how many there are."""
+    import numpy as np
+
     from skyline_viz.diagnosis.other_lines import other_lines
     from skyline_viz.viewer.lines_recording import log_lines
 

@@ -31,14 +31,17 @@ def place(part: Part) -> str:
 
 def markdown(found: Parting) -> str:
     """All that is known of where two detections part, as a Markdown document."""
-    first, second = (named_in_markdown(name) for name in found.names)
+    first, second = (named_in_markdown(shortened(name)) for name in found.names)
     lines = [f"**{second}** (yellow) against **{first}** (magenta)", ""]
     if found.a_errs:
         one, other = found.a_errs
-        lines += [f"**A_err** {one:.2f} px, {second} {other:.2f} px: {other - one:+.2f} px  "]
+        lines += [
+            f"**A_err** {first} {one:.2f} px, {second} {other:.2f} px: {other - one:+.2f} px  "
+        ]
+    apart = f"apart in columns {listed_segments(found.apart)}" if found.apart else "nowhere apart"
     lines += [
-        f"**Lines apart** in columns {listed_segments(found.apart) or 'none'}; "
-        f"mean distance {found.distance:.2f} px, largest {found.furthest:.0f} px  ",
+        f"**Lines** {apart}; mean distance {found.distance:.2f} px, "
+        f"largest {found.furthest:.0f} px  ",
         f"**They part** {_where(found)}",
     ]
     if found.turns:

@@ -169,3 +169,8 @@ def test_what_a_detection_came_to_is_said_in_words():
         "2.00 px from paper · A_err 0.50 px · too steep",
         "wrong 0 to 9 · margin 1.23 at 7 · by default",
     )
+    turned = replace(wrong, other_a_err=3.0, parts_at="edges, column 7", turned_by="sky")
+    assert about(turned) == (
+        "2.00 px from paper · A_err +2.50 px by it · A_err 0.50 px · too steep",
+        "wrong 0 to 9 · part at edges, column 7, turned by sky · margin 1.23 at 7 · by default",
+    )

@@ -17,6 +17,9 @@ from skyline_viz.viewer.entities import below
 _BLACK = (12, 12, 12)
 _THIN = 0.6  # half the width of a line on a map, in points of the screen
 _MOST = 24  # characters of a name in a title
+_WIDE = 1.6  # columns to a row from which on a photo is a panorama
+_LEFT = (800.0, 700.0)  # width and height of the part of a window that has pictures, in points
+_TITLE = 28.0  # height of the title of a view, in points
 
 
 def compare_tab(contents: Contents) -> rrb.Container:
@@ -33,38 +36,41 @@ def compare_tab(contents: Contents) -> rrb.Container:
     shape = contents.width / contents.height
     if not maps:
         return rrb.Horizontal(photo, text, column_shares=[3, 2], name="Compare")
-    pictures: rrb.Container
-    if shape < 0.9:  # as high as the window
-        pictures = rrb.Horizontal(photo, _in_rows(maps, 3), column_shares=[2, 3])
-    else:
-        columns = 2 if len(maps) < 5 else 3 if shape > 1.6 else 4
-        rows = -(-len(maps) // columns)
-        pictures = rrb.Vertical(photo, _in_rows(maps, columns), row_shares=[4, 1 + 2 * rows])
+    pictures: rrb.Container = _in_rows([photo, *maps], shape, _LEFT)
+    if shape > _WIDE:  # a panorama needs the width
+        width, height = _LEFT
+        below_it = width, height - width / shape
+        pictures = rrb.Vertical(photo, _in_rows(maps, shape, below_it), row_shares=[4, 5])
     return rrb.Horizontal(pictures, text, column_shares=[5, 3], name="Compare")
 
 
 def side_by_side_tab(contents: Contents) -> rrb.Container:
     """The stages of both detections, each beside that of the other."""
     views = []
+    first, second = (shortened(one, _MOST) for one in (contents.first, contents.compared))
     both = dict.fromkeys([*contents.stages, *contents.compared_stages])
     stages = [one for one in both if "Stages" in one.tabs and one.group != "tensor"]
     for one in stages:
-        title, stage = one.word or one.name, entities.of_quantity(one)
+        title, stage = (one.word or one.name).capitalize(), entities.of_quantity(one)
+        names = (
+            first if one in contents.stages else f"{first} has none",
+            second if one in contents.compared_stages else f"{second} has none",
+        )
         views += [
-            _view(f"{contents.first}: {title}", [stage, f"{entities.PATH}/**"]),
+            _view(f"{title}: {names[0]}", [stage, f"{entities.PATH}/**"]),
             _view(
-                f"{contents.compared}: {title}",
+                f"{title}: {names[1]}",
                 [below(entities.OTHER, stage), f"{entities.ALTERNATIVE}/**"],
             ),
         ]
     reports = [
         rrb.TextDocumentView(origin=origin, name=shown_in_viewer(f"Report of {name}"))
         for name, origin in (
-            (contents.first, entities.REPORT),
-            (contents.compared, below(entities.OTHER, entities.REPORT)),
+            (first, entities.REPORT),
+            (second, below(entities.OTHER, entities.REPORT)),
         )
     ]
-    if contents.width > 1.6 * contents.height:
+    if contents.width > _WIDE * contents.height:
         return rrb.Horizontal(
             rrb.Grid(*views, grid_columns=2),
             rrb.Vertical(*reports),
@@ -80,11 +86,11 @@ def side_by_side_tab(contents: Contents) -> rrb.Container:
 
 def _difference(one: Quantity, lines: Sequence[str], first: str, second: str) -> rrb.View:
     """A map of what the second has more, with both lines on it, so thin that it stays in sight."""
-    title = f"{one.about}: {one.low:g} blue to +{one.high:g} red{one.unit}"
+    title = f"{one.about}: blue less, red more"
     if one.name == EDGES.name:
         title = f"Edges: blue {first} alone, red {second} alone"
-    elif one.high is None:
-        title = f"{one.about}: blue less, red more"
+    elif one.high is not None:
+        title = f"{one.about}: {-one.high:g} blue to +{one.high:g} red{one.unit}"
     thin = rr.LineStrips2D.from_fields(radii=[-_THIN]).visualizer()
     return rrb.Spatial2DView(
         origin="/",
@@ -95,9 +101,21 @@ def _difference(one: Quantity, lines: Sequence[str], first: str, second: str) ->
     )
 
 
-def _in_rows(views: Sequence[rrb.View], columns: int) -> rrb.Container:
-    """Views in rows of so many at the most, each as full as the others or by one less."""
-    rows = np.array_split(np.arange(len(views)), -(-len(views) // columns))
+def _in_rows(views: Sequence[rrb.View], shape: float, room: tuple[float, float]) -> rrb.Container:
+    """Views in as many rows as let their pictures be largest; a row may have one less than others.
+
+    Args:
+        views: The views.
+        shape: Width of a picture by its height.
+        room: Width and height that there is, in points.
+    """
+    count = len(views)
+
+    def size(rows: int) -> float:
+        wide, high = room[0] / -(-count // rows), room[1] / rows - _TITLE
+        return min(wide / shape, high)
+
+    rows = np.array_split(np.arange(count), max(range(1, count + 1), key=size))
     return rrb.Vertical(*(rrb.Horizontal(*(views[at] for at in row)) for row in rows))
 
 
