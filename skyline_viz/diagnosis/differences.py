@@ -66,9 +66,9 @@ class Difference:
         """What it is, in words.
 
         >>> Difference("sky", "term", "", None).title, Difference("sky", "stage", "", None).title
-        ('cost of sky', 'sky')
+        ('sky cost', 'sky')
         """
-        return f"cost of {self.name}" if self.kind == "term" else self.name
+        return f"{self.name} cost" if self.kind == "term" else self.name
 
 
 def differences(first: Detection, second: Detection) -> Iterator[Difference]:

@@ -233,40 +233,32 @@ def _cards(
         name="skyline",
     )
     errors = [
-        tables.Column("a_err", name="A_err (px)"),
+        *([] if compared else [tables.Column("a_err", name="A_err (px)")]),
         tables.Column("cause", name="cause"),
         tables.Column("worst", name="worst"),
         tables.Column("wrong", name="wrong"),
     ]
-    against = []
-    if compared:
-        name = shown_in_viewer(f"yellow is {compared}, apart (px)")
-        against.append(tables.Column("difference", name=name))
-    if compared and truth:
-        against += [
-            tables.Column("other_a_err", name="its A_err (px)"),
-            tables.Column("change", name="change of A_err (px)"),
-            tables.Column("outcome", name="it is"),
-        ]
-    if compared:
-        against += [
-            tables.Column("parts_at", name="they part at"),
-            tables.Column("turned_by", name="turned by"),
-        ]
+    against = _against(tables, truth, compared) if compared else []
     shown = [
         tables.Column("shows", name="shows"),
         tables.Column("confidence", name="confidence"),
     ]
-    columns = [
+    first = [
         tables.Column("photo", name="skyline", column_type=tables.PreviewCell(thumbnail)),
         *against,
+    ]
+    rest = [
         *(errors if truth else []),
         tables.Column("margin", name="margin"),
         *(shown if told else []),
         tables.Column("method", name="by"),
+    ]
+    last = [
         tables.Column("reviewed", name="reviewed", column_type=rr.components.Flag),
         tables.Column("comment", name="comment"),
     ]
+    columns = [*first, *rest, *last]
+    on_cards = [*first, *last] if compared else columns  # the table has the rest
     in_table = [tables.Column("name"), *columns]
     if truth:
         in_table.append(tables.Column("causes"))  # for filters; too long for cards
@@ -276,10 +268,29 @@ def _cards(
     if compared:
         order = tables.SortBy("change" if truth else "difference", direction="descending")
     blueprint: TableBlueprint = tables.TableBlueprint(
-        card_layout=tables.CardLayout(title="name", link="photo", fields=columns),
+        card_layout=tables.CardLayout(title="name", link="photo", fields=on_cards),
         table_layout=tables.TableLayout(columns=in_table),
         default_layout="cards",
         filters=[tables.col("causes").str.contains(cause)] if cause else [],
         sort_by=order,
     )
     return blueprint
+
+
+def _against(tables: Any, truth: bool, compared: str) -> list[Any]:  # noqa: ANN401
+    """The columns about a second method."""
+    name = shown_in_viewer(f"yellow is {shortened(compared)}, apart (px)")
+    apart = tables.Column("difference", name=name)
+    parting = [
+        tables.Column("parts_at", name="they part at"),
+        tables.Column("turned_by", name="turned by"),
+    ]
+    if not truth:
+        return [apart, *parting]
+    errors = {
+        "a_err": "A_err (px)",
+        "other_a_err": "with the yellow line (px)",
+        "change": "change (px)",
+        "outcome": "so it is",
+    }
+    return [apart, *(tables.Column(one, name=name) for one, name in errors.items()), *parting]

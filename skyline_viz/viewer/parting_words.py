@@ -42,7 +42,8 @@ def markdown(found: Parting) -> str:
     lines += [
         f"**Lines** {apart}; mean distance {found.distance:.2f} px, "
         f"largest {found.furthest:.0f} px  ",
-        f"**They part** {_where(found)}",
+        f"**They part** {_where(found)}  ",
+        f"**Maps** red where {second} has more, blue where {first} has; edges of both are grey.",
     ]
     if found.turns:
         lines += [

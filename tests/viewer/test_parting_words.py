@@ -24,7 +24,7 @@ def test_a_sentence_has_the_columns_the_stage_and_the_term():
     assert said(FOUND) == ("lines apart at 10 to 30; part at edges, column 12; turned by clear sky")
     alike = Parting(("a", "b"), (), (), (), 0.0, 0.0)
     assert said(alike) == "all stages alike"
-    assert said(replace(alike, parts=(TERM,))) == "part at cost of clear sky, column 14, same line"
+    assert said(replace(alike, parts=(TERM,))) == "part at clear sky cost, column 14, same line"
 
 
 def test_a_place_is_on_the_lines_where_it_is_there():

@@ -31,7 +31,7 @@ def compare_tab(contents: Contents) -> rrb.Container:
         f"Magenta: {first}, yellow: {second}{truth}",
         [entities.PHOTO, *(f"{line}/**" for line in lines)],
     )
-    maps = [_difference(one, lines, first, second) for one in contents.apart]
+    maps = [_difference(one, lines) for one in contents.apart]
     text = rrb.TextDocumentView(origin=entities.COMPARISON, name="Where they part")
     shape = contents.width / contents.height
     if not maps:
@@ -84,13 +84,14 @@ def side_by_side_tab(contents: Contents) -> rrb.Container:
     return rrb.Vertical(*rows, name="Side by side")
 
 
-def _difference(one: Quantity, lines: Sequence[str], first: str, second: str) -> rrb.View:
-    """A map of what the second has more, with both lines on it, so thin that it stays in sight."""
-    title = f"{one.about}: blue less, red more"
+def _difference(one: Quantity, lines: Sequence[str]) -> rrb.View:
+    """A map of what the second has more, with both lines on it, so thin that it stays in sight.
+
+    Its title is short: of many maps each has little room. The document beside them has the legend.
+    """
+    title = one.title if one.high is None else f"{one.title} ±{one.high:g}{one.unit}"
     if one.name == EDGES.name:
-        title = f"Edges: blue {first} alone, red {second} alone"
-    elif one.high is not None:
-        title = f"{one.about}: {-one.high:g} blue to +{one.high:g} red{one.unit}"
+        title = "Edges of one alone"
     thin = rr.LineStrips2D.from_fields(radii=[-_THIN]).visualizer()
     return rrb.Spatial2DView(
         origin="/",

@@ -10,7 +10,7 @@ from skyline_viz.viewer.tabs.compare import compare_tab, side_by_side_tab
 
 APART = (
     Quantity("edges", about="Edges", group="apart/stage"),
-    Quantity("sky", low=-0.5, high=0.5, about="Cost of sky", group="apart/term"),
+    Quantity("sky", low=-0.5, high=0.5, about="Sky cost", group="apart/term"),
     *(
         Quantity(f"t{at}", low=-1.0, high=1.0, about=f"T{at}", group="apart/term")
         for at in range(5)
@@ -37,15 +37,14 @@ def test_every_map_has_both_lines_on_it_and_the_truth(height, width, truth):
         assert lines <= set(one.contents)
         assert (f"+ /{entities.TRUTH}" in one.contents) == truth
     names = [one.name for one in maps]
-    assert names[0] == "Edges: blue default alone, red paper alone"
-    assert names[1] == "Cost of sky: -0.5 blue to +0.5 red"
+    assert names[:2] == ["Edges of one alone", "Sky cost ±0.5"]
     assert found[0].name.startswith("Magenta: default, yellow: paper")
 
 
 def test_ranges_that_are_not_known_are_not_told():
     apart = (Quantity("cost", about="Cost", group="apart/stage"),)
     found = views(compare_tab(Contents(9, 9, compared="paper", apart=apart)))
-    assert "Cost: blue less, red more" in [one.name for one in found]
+    assert "Cost" in [one.name for one in found]
 
 
 @pytest.mark.parametrize(("height", "width"), [(519, 1388), (1024, 1024)])
