@@ -8,6 +8,8 @@ from skyline_viz.diagnosis.parting import Part, Parting
 from skyline_viz.system.names import named_in_markdown, shortened
 from skyline_viz.viewer.report import listed_segments
 
+_MOST = 32  # characters of a name in the document
+
 
 def said(found: Parting) -> str:
     """Where two detections part, in a sentence without an end."""
@@ -31,7 +33,7 @@ def place(part: Part) -> str:
 
 def markdown(found: Parting) -> str:
     """All that is known of where two detections part, as a Markdown document."""
-    first, second = (named_in_markdown(shortened(name)) for name in found.names)
+    first, second = (named_in_markdown(shortened(name, _MOST)) for name in found.names)
     lines = [f"**{second}** (yellow) against **{first}** (magenta)", ""]
     if found.a_errs:
         one, other = found.a_errs

@@ -20,6 +20,7 @@ _MOST = 24  # characters of a name in a title
 _WIDE = 1.6  # columns to a row from which on a photo is a panorama
 _LEFT = (800.0, 700.0)  # width and height of the part of a window that has pictures, in points
 _TITLE = 28.0  # height of the title of a view, in points
+_LEAST = 240.0  # width of a view of whose title enough is seen, in points
 
 
 def compare_tab(contents: Contents) -> rrb.Container:
@@ -38,9 +39,9 @@ def compare_tab(contents: Contents) -> rrb.Container:
         return rrb.Horizontal(photo, text, column_shares=[3, 2], name="Compare")
     pictures: rrb.Container = _in_rows([photo, *maps], shape, _LEFT)
     if shape > _WIDE:  # a panorama needs the width
-        width, height = _LEFT
-        below_it = width, height - width / shape
-        pictures = rrb.Vertical(photo, _in_rows(maps, shape, below_it), row_shares=[4, 5])
+        below_it = _in_rows(maps, shape, (_LEFT[0], _LEFT[1] * 0.6))
+        shares = [2, 1 + len(below_it.contents)]
+        pictures = rrb.Vertical(photo, below_it, row_shares=shares)
     return rrb.Horizontal(pictures, text, column_shares=[5, 3], name="Compare")
 
 
@@ -114,7 +115,7 @@ def _in_rows(views: Sequence[rrb.View], shape: float, room: tuple[float, float])
 
     def size(rows: int) -> float:
         wide, high = room[0] / -(-count // rows), room[1] / rows - _TITLE
-        return min(wide / shape, high)
+        return min(wide / shape, high) if wide >= _LEAST or rows == count else 0.0
 
     rows = np.array_split(np.arange(count), max(range(1, count + 1), key=size))
     return rrb.Vertical(*(rrb.Horizontal(*(views[at] for at in row)) for row in rows))

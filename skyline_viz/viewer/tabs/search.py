@@ -29,10 +29,10 @@ def search_tab(contents: Contents) -> rrb.Container:
     )
     table = rrb.TextDocumentView(origin=entities.OTHER_LINES_TABLE, name="What they pay")
     if contents.width > 1.6 * contents.height:
-        head = rrb.Horizontal(lines, table, column_shares=[3, 2])
+        head = rrb.Horizontal(lines, table)
         return rrb.Vertical(head, *rows, row_shares=[4, 3, 3], name="Search")
-    side = rrb.Vertical(table, *rows, row_shares=[2, 3, 3])
-    return rrb.Horizontal(lines, side, column_shares=[1, 1], name="Search")
+    side = rrb.Vertical(table, *rows, row_shares=[5, 6, 6])
+    return rrb.Horizontal(lines, side, name="Search")
 
 
 def _map(contents: Contents, title: str, entity: str) -> rrb.View:
