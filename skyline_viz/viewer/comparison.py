@@ -22,6 +22,7 @@ from skyline_viz.diagnosis.differences import (
     cost_difference,
     differences,
     edge_difference,
+    same_terms,
 )
 from skyline_viz.diagnosis.parting import Parting, parting
 from skyline_viz.evaluation.verdict import Verdict
@@ -42,6 +43,7 @@ _DIFFERENCE = (0xAA, 0x8E, 0x0A)  # the yellow of the second line, as dark as ar
 _ALONE = ((0x4D, 0xA3, 0xE8), (0xF0, 0x7A, 0x5A))  # edges of the first alone, and of the second
 _BOTH = (0x60, 0x60, 0x60)
 _MOST = 24  # characters of a name on a map
+_USUAL, _FORBIDS = 95.0, 10.0  # percentile of usual costs; how far beyond it others forbid
 
 LEAN = tuple(
     Quantity(one.name, about=one.name.capitalize(), group=f"{entities.APART}/stage")
@@ -138,7 +140,7 @@ def _log_differences(
         values = one.values
         if fidelity == "lean" and one.name != EDGES.name:
             values = np.where(_shown(first, truth) | _shown(second, truth), values, np.nan)
-        quantity = _quantity(one, first.method, second.method)
+        quantity = _quantity(one, first, second)
         maps.append(quantity)
         if one.name == EDGES.name:
             _log_edges(recording, first, second)
@@ -166,11 +168,12 @@ def _unlike(values: F32) -> F32:
     return unlike
 
 
-def _quantity(one: Difference, first: str, second: str) -> Quantity:
+def _quantity(one: Difference, first: Detection, second: Detection) -> Quantity:
     """How a difference is shown: black in the middle of its range is alike."""
     assert one.values is not None
-    sizes = np.abs(one.values[np.isfinite(one.values)])
-    reach = rounded_up(float(sizes.max(initial=0.0)))
+    sizes = np.abs(one.values[np.isfinite(one.values) & (np.abs(one.values) > ALIKE)])
+    reach = rounded_up(reach_of(sizes, forbidding=not same_terms(first, second)))
+    names = [shortened(found.method, _MOST) for found in (second, first)]
     return Quantity(
         one.name,
         "blue_or_red",
@@ -180,8 +183,27 @@ def _quantity(one: Difference, first: str, second: str) -> Quantity:
         about=one.title.capitalize(),
         group=f"{entities.APART}/{one.kind}",
         tabs=("Compare",),
-        word=f"{one.title}, {shortened(second, _MOST)} less {shortened(first, _MOST)}",
+        word=f"{one.title}, {' less '.join(names)}",
     )
+
+
+def reach_of(sizes: F32, *, forbidding: bool) -> float:
+    """How far the colours of a map reach.
+
+    Args:
+        sizes: Sizes of the differences.
+        forbidding: Whether there may be costs by which other methods forbid single pixels. These
+            count as infinite: they take the last colour, and leave the others to the rest.
+
+    >>> sizes = np.array([0.5] * 99 + [2e5], np.float32)
+    >>> reach_of(sizes, forbidding=True), reach_of(sizes, forbidding=False)
+    (0.5, 200000.0)
+    """
+    largest = float(sizes.max(initial=0.0))
+    if not forbidding or not largest:
+        return largest
+    usual = float(np.percentile(sizes, _USUAL))
+    return usual if largest > _FORBIDS * usual else largest
 
 
 def rounded_up(value: float) -> float:

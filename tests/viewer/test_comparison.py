@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import skyline_viz as sv
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.comparison import LEAN, log_comparison, rounded_up
+from skyline_viz.viewer.comparison import LEAN, log_comparison, reach_of, rounded_up
 from testing.recordings import Read, drawn_rows, scene, visible_rows
 
 
@@ -84,6 +84,15 @@ def test_a_lean_recording_has_edges_and_cost_alone(compared):
     lean, found = read["lean"]
     assert [(one.group, one.name) for one in found.maps] == [(one.group, one.name) for one in LEAN]
     assert "apart/term/sky" not in lean.entities()
+
+
+@pytest.mark.parametrize("largest", [0.7, 3.0, 1e6])
+def test_costs_that_forbid_pixels_leave_the_others_their_colours(largest):
+    sizes = np.append(np.linspace(0.1, 0.5, 99), largest).astype(np.float32)
+    assert reach_of(sizes, forbidding=False) == np.float32(largest)
+    reach = reach_of(sizes, forbidding=True)
+    assert reach == (np.float32(largest) if largest <= 3 else pytest.approx(0.48, abs=0.02))
+    assert reach_of(sizes[:0], forbidding=True) == 0
 
 
 @given(st.floats(1e-4, 1e6))

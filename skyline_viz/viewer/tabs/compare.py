@@ -40,7 +40,7 @@ def compare_tab(contents: Contents) -> rrb.Container:
     pictures: rrb.Container = _in_rows([photo, *maps], shape, _LEFT)
     if shape > _WIDE:  # a panorama needs the width
         below_it = _in_rows(maps, shape, (_LEFT[0], _LEFT[1] * 0.6))
-        shares = [2, 1 + len(below_it.contents)]
+        shares = [2, 1 + len([*below_it.contents])]
         pictures = rrb.Vertical(photo, below_it, row_shares=shares)
     return rrb.Horizontal(pictures, text, column_shares=[5, 3], name="Compare")
 
