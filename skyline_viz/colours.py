@@ -44,13 +44,19 @@ _BLUE_TO_RED = (
 )  # fmt: skip  # ColorBrewer's RdBu, which colour-vision deficiency leaves two-sided
 
 
+_BLUE_OR_RED = (
+    "B9DDF9", "7DBBEE", "4596DB", "2670B0", "1E4C79", "141414",
+    "7E2B1E", "B84A31", "E2714F", "F6A383", "FCD7C5",
+)  # fmt: skip  # as RdBu, the other way round in brightness: alike is as dark as what lies behind
+
+
 @lru_cache(maxsize=16)
 def colour_map(name: str) -> U8:
     """A colour map as a table ``(256, 3)`` uint8 RGB.
 
     ``viridis``, ``inferno`` and ``magma`` are perceptually uniform, ``twilight_shifted`` is cyclic,
-    ``blue_red`` has white in its middle, and ``gray`` is what it says. The ending ``_r`` turns a
-    map round.
+    ``blue_red`` has white in its middle, ``blue_or_red`` black, and ``gray`` is what it says. The
+    ending ``_r`` turns a map round.
 
     >>> colour_map("blue_red")[[0, 255]].tolist()
     [[5, 48, 97], [103, 0, 31]]
@@ -60,8 +66,9 @@ def colour_map(name: str) -> U8:
     """
     if name.endswith("_r"):
         table = colour_map(name[:-2])[::-1].copy()
-    elif name == "blue_red":
-        anchors = np.array([[*bytes.fromhex(one)] for one in _BLUE_TO_RED])
+    elif name in ("blue_red", "blue_or_red"):
+        named = _BLUE_TO_RED if name == "blue_red" else _BLUE_OR_RED
+        anchors = np.array([[*bytes.fromhex(one)] for one in named])
         places = np.linspace(0, len(anchors) - 1, 256)
         between = [np.interp(places, np.arange(len(anchors)), one) for one in anchors.T]
         table = np.rint(np.stack(between, axis=1)).astype(np.uint8)

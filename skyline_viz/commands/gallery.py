@@ -34,7 +34,7 @@ from skyline_viz.system.memory import MAX_MEGAPIXELS, RECORDING
 
 if TYPE_CHECKING:
     from skyline_viz.datasets.named_item import NamedItem
-    from skyline_viz.gallery.store import Entry
+    from skyline_viz.gallery.entry import Entry
     from skyline_viz.gallery.table import ServedGallery
     from skyline_viz.method import Method
 
@@ -93,7 +93,8 @@ class GalleryCommand:
     """Largest photo that is read, in million pixels."""
 
     methods: MethodOptions = field(default_factory=Methods)
-    """One method instead of ours, or two: those photos first on which they differ most."""
+    """One method instead of ours, or two: how many photos got better and worse with the second,
+    the worst first."""
 
     truths: TruthOptions = field(default_factory=Truths)
     """How to read masks that leave a choice."""
@@ -144,7 +145,9 @@ def build(
     beside: Method | None = None,
 ) -> tuple[list[Entry], list[Failure]]:
     """Bring a gallery up to date, and return its photos, the worst first, and those that failed."""
-    from skyline_viz.gallery.store import Gallery, by_need
+    from skyline_viz.gallery.better_worse import tables
+    from skyline_viz.gallery.entry import by_need
+    from skyline_viz.gallery.store import Gallery
 
     entries: list[Entry] = []
     failures: list[Failure] = []
@@ -155,6 +158,7 @@ def build(
         else:
             entries.append(outcome)
     tell(f"{counted(len(entries), 'photo')} in {out}")
+    tell(*tables(entries).splitlines())
     return by_need(entries), failures
 
 

@@ -245,7 +245,7 @@ class Inspect:
         """Log a photo of `together` ones, and say what the recording now holds."""
         from skyline_viz.filter_detection import FilterDetection
         from skyline_viz.running.warming import warm_up
-        from skyline_viz.viewer import entities
+        from skyline_viz.viewer import entities, parting_words
         from skyline_viz.viewer.comparison import log_comparison
         from skyline_viz.viewer.contents import Contents, MethodContents
         from skyline_viz.viewer.recording import log_along_columns, log_detection
@@ -262,12 +262,19 @@ class Inspect:
             sweeps = inspect_more.begin_sweeps(recording, ours, using.sizes)
         verdict = log_detection(recording, found, truth, name=one.name, fidelity=fidelity)
         compared: dict[str, Any] = {}
+        beside = None
         if using.other:
             second = using.other.detect(photo)
-            log_comparison(recording, found, second, truth, second.method, fidelity)
+            beside = log_comparison(recording, found, second, truth, second.method, fidelity)
             held = MethodContents.of(second)
-            compared = {"compared": held.name, "compared_stages": held.stages}
+            compared = {
+                "first": found.method,
+                "compared": held.name,
+                "compared_stages": held.stages,
+                "apart": beside.unlike if alone else beside.of_any_photo,
+            }
         methods = inspect_more.log_methods(recording, found, using.methods, truth, fidelity)
+        others = inspect_more.log_other_lines(recording, found, truth) if alone else 0
         diagnosis = None
         if alone and truth is not None and truth.visible.any():
             diagnosis = inspect_more.log_diagnosis(recording, found, truth, one.name)
@@ -278,6 +285,8 @@ class Inspect:
             inspect_more.log_sweeps(recording, sweeps, ours, truth)
         error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
         tell(f"{one.name}{error}  margin {verdict.margin:.3g}")
+        if beside:
+            tell(f"{one.name}: {parting_words.said(beside.parting)}")
         if found.visibility and found.visibility.doubt:
             tell(f"{one.name}: {found.visibility.doubt}")
         if diagnosis and diagnosis.right:
@@ -291,6 +300,7 @@ class Inspect:
             photos=together,
             **compared,
             methods=methods,
+            other_lines=others,
             swept=sweeps[0].timeline if sweeps else "",
         )
 

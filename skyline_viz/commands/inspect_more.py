@@ -39,6 +39,20 @@ def log_diagnosis(
     return diagnosis
 
 
+def log_other_lines(recording: rr.RecordingStream, found: Detection, truth: Skyline | None) -> int:
+    """Search the best lines along other ridges, and log them; return how many there are."""
+    import numpy as np
+
+    from skyline_viz.certainty.other_lines import other_lines
+    from skyline_viz.viewer.lines_recording import log_lines
+
+    height = len(found.photo)
+    rows = found.skyline.pixel_rows(height).clip(0, height - 1).astype(np.int32)
+    lines = other_lines(found.cost, found.delta, found.link_weight, rows)
+    log_lines(recording, found, lines, truth)
+    return len(lines)
+
+
 def log_methods(
     recording: rr.RecordingStream,
     found: Detection,

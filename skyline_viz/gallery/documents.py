@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -47,11 +48,25 @@ def made(kind: Any, path: Path, values: dict[str, Any]) -> Any:  # noqa: ANN401
         raise GalleryError(f"{path} is damaged: {error}.") from error
 
 
-def write_list(path: Path, key: str, values: list[dict[str, Any]], version: int) -> None:
+def write_list(
+    path: Path,
+    key: str,
+    values: list[dict[str, Any]],
+    version: int,
+    more: Mapping[str, Any] | None = None,
+) -> None:
     """Write a file whole; it is on the disk then.
+
+    Args:
+        path: The file.
+        key: What the list is called in it.
+        values: The list.
+        version: Of the file.
+        more: What else is in it, for others to read.
 
     Raises:
         OSError: It cannot be written; what was there is untouched.
     """
-    text = json.dumps({"version": version, key: values}, indent=1, ensure_ascii=False)
+    document = {"version": version, **(more or {}), key: values}
+    text = json.dumps(document, indent=1, ensure_ascii=False)
     write_text(path, text + "\n")

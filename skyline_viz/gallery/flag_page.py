@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from skyline_viz.gallery.documents import GalleryError
+from skyline_viz.gallery.entry import Entry
 from skyline_viz.gallery.flags import (
     LONGEST,
     Change,
@@ -24,7 +25,7 @@ from skyline_viz.gallery.flags import (
     change_flags,
     read_flags,
 )
-from skyline_viz.gallery.store import Entry, Gallery
+from skyline_viz.gallery.store import Gallery
 from skyline_viz.running.batch import sentence
 from skyline_viz.system import local_server
 from skyline_viz.system.local_server import Answer, Request, refused, told
@@ -124,11 +125,16 @@ def about(entry: Entry) -> tuple[str, str]:
     verdict, details = [], []
     if entry.difference is not None:
         verdict.append(f"{entry.difference:.2f} px from {printable(entry.compared)}")
+        if entry.change is not None:
+            verdict.append(f"A_err {entry.change:+.2f} px by it")
     if entry.shows not in (None, "skyline"):
         verdict.append(str(entry.shows))
     if entry.verdict.a_err is not None:
         verdict += [f"A_err {entry.verdict.a_err:.2f} px", *(entry.causes or ())]
         details.append(f"wrong {entry.wrong}" if entry.wrong else "no column wrong")
+    if entry.parts_at:
+        turned = f", turned by {printable(entry.turned_by)}" if entry.turned_by else ""
+        details.append(f"part at {printable(entry.parts_at)}{turned}")
     details.append(f"margin {entry.verdict.margin:.2f} at {entry.verdict.unsure_column}")
     details.append(f"by {printable(entry.method)}")
     return " · ".join(verdict), " · ".join(details)

@@ -26,88 +26,25 @@ from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.diagnosis.diagnosing import diagnose
-from skyline_viz.evaluation.verdict import Verdict
-from skyline_viz.frames.visibility import Case
-from skyline_viz.gallery.documents import GalleryError, made, read_list, write_list
+from skyline_viz.gallery.better_worse import better_worse
+from skyline_viz.gallery.documents import read_list, write_list
+from skyline_viz.gallery.entry import Entry, read_entry
 from skyline_viz.gallery.thumbnails import write_thumbnail
 from skyline_viz.method import Method
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.resume import digest_of_files, digest_of_method
 from skyline_viz.running.warming import warm_up
-from skyline_viz.stage import Quantity
 from skyline_viz.system.names import recording_id
 from skyline_viz.viewer.comparison import log_comparison
 from skyline_viz.viewer.contents import Contents
 from skyline_viz.viewer.diagnosis_recording import log_diagnosis
+from skyline_viz.viewer.parting_words import place
 from skyline_viz.viewer.recording import log_detection, new_recording
-from skyline_viz.viewer.report import listed_segments
 
-VERSION = 7
+VERSION = 8
 """Of recordings and gallery.json; all of an earlier one are made anew."""
 
 _SAVE_EVERY = 1.0  # seconds
-
-
-@dataclass(frozen=True)
-class Entry:
-    """A photo of a gallery, and what its detection came to."""
-
-    name: str
-    """Unique in the gallery; also the name of its recording."""
-
-    photo: str
-    """The photo's file."""
-
-    made_from: str
-    """Digest of photo, truth, filter bank and configuration."""
-
-    height: int
-    """Rows of the photo."""
-
-    width: int
-    """Its columns."""
-
-    verdict: Verdict
-    """What the detection came to."""
-
-    stages: tuple[Quantity, ...] = ()
-    """The stages that its recording holds."""
-
-    causes: tuple[Cause, ...] | None = None
-    """Why it went wrong, see `diagnosis.Diagnosis.causes`; nothing where it is right, None without
-    a truth."""
-
-    titles: tuple[str, ...] = ()
-    """The causes with the terms and the places that they name, see `diagnosing.Segment.title`, each
-    once, that of the main segment first."""
-
-    confidence: float | None = None
-    """Probability that its line is no gross miss, see `certainty.confidence`."""
-
-    shows: Case | None = None
-    """Whether it has a skyline, and one visible everywhere; None of methods that cannot tell."""
-
-    method: str = "default"
-    """Name of the method."""
-
-    compared: str = ""
-    """Name of the method beside the first; nothing without one."""
-
-    other_a_err: float | None = None
-    """Mean error of its line in pixels."""
-
-    difference: float | None = None
-    """Mean distance between both lines, in pixels."""
-
-    @property
-    def cause(self) -> Cause | None:
-        """The main cause."""
-        return self.causes[0] if self.causes else None
-
-    @property
-    def wrong(self) -> str:
-        """The segments that went wrong, in words."""
-        return listed_segments(self.verdict.segments or (), most=2)
 
 
 @dataclass(frozen=True)
@@ -133,14 +70,16 @@ class Gallery:
         """
         entries = {}
         for one in read_list(self.folder / "gallery.json", "photos", VERSION):
-            entry = _entry(self.folder / "gallery.json", one)
+            entry = read_entry(self.folder / "gallery.json", one)
             entries[entry.name] = entry
         return entries
 
     def save_entries(self, entries: Sequence[Entry]) -> None:
         """Write what was done."""
         done = [asdict(entry) for entry in entries]
-        write_list(self.folder / "gallery.json", "photos", done, VERSION)
+        found = better_worse(entries)
+        more = {"comparison": asdict(found)} if found else {}
+        write_list(self.folder / "gallery.json", "photos", done, VERSION, more)
 
     def build(
         self,
@@ -180,24 +119,6 @@ class Gallery:
             self.save_entries(list(entries.values()))
 
 
-def by_need(entries: Sequence[Entry]) -> list[Entry]:
-    """Entries in the order in which to look at them.
-
-    Where two methods are compared, those on which they differ most first. Else those with a truth
-    first, the largest error before; then those without, the least sure before.
-    """
-    return sorted(
-        entries,
-        key=lambda one: (
-            -(one.difference or 0.0),
-            one.verdict.a_err is None,
-            -(one.verdict.a_err or 0.0),
-            one.verdict.margin,
-            one.name,
-        ),
-    )
-
-
 @dataclass(frozen=True)
 class _Task:
     name: str
@@ -234,11 +155,14 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
         against: dict[str, Any] = {}
         if other is not None:
             beside = log_comparison(recording, detection, other, truth, other.method, "lean")
+            parted = beside.parting
             apart = np.abs(other.skyline.rows - detection.skyline.rows).mean()
             against = {
                 "compared": other.method,
-                "other_a_err": beside.a_err,
+                "other_a_err": beside.verdict.a_err,
                 "difference": float(apart),
+                "parts_at": place(parted.on_lines or parted.at) if parted.at else "",
+                "turned_by": parted.turned_by,
             }
     write_thumbnail(gallery.thumbnail(task.name), photo, detection.skyline, truth)
     photo_file = str(item.photo_path)
@@ -254,23 +178,3 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     }
     height, width = photo.shape[:2]
     return Entry(task.name, photo_file, made_from, height, width, verdict, stages, **about)
-
-
-def _entry(path: Path, values: dict[str, Any]) -> Entry:
-    """An entry as `asdict` took it apart, put together again."""
-    try:
-        told = dict(values["verdict"])
-        if told["segments"] is not None:
-            told["segments"] = tuple((int(a), int(b)) for a, b in told["segments"])
-        if values["causes"] is not None:
-            values["causes"] = tuple(values["causes"])
-        values["titles"] = tuple(values["titles"])
-        stages = tuple(
-            Quantity(**{**one, "span": tuple(one["span"]), "tabs": tuple(one["tabs"])})
-            for one in values["stages"]
-        )
-        verdict = Verdict(**told)
-    except (LookupError, TypeError, ValueError) as error:
-        raise GalleryError(f"{path} is damaged: {error}.") from error
-    entry: Entry = made(Entry, path, {**values, "verdict": verdict, "stages": stages})
-    return entry

@@ -16,13 +16,16 @@ import pyarrow as pa
 import rerun as rr
 import rerun.blueprint as rrb
 
+from skyline_viz.gallery.better_worse import outcome
+from skyline_viz.gallery.entry import Entry
 from skyline_viz.gallery.flags import Flag, read_flags
-from skyline_viz.gallery.store import Entry, Gallery
+from skyline_viz.gallery.store import Gallery
 from skyline_viz.system.aftermath import passing_temporaries
 from skyline_viz.system.loopback import LOOPBACK
 from skyline_viz.system.names import recording_id, shortened, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.blueprints import detection_blueprint
+from skyline_viz.viewer.comparison import LEAN
 from skyline_viz.viewer.contents import Contents
 from skyline_viz.viewer.program.process import free_port
 from skyline_viz.viewer.program.rerun_internals import card_parts
@@ -128,7 +131,9 @@ def contents_of(entries: Sequence[Entry], truth: bool) -> Contents:
         truth=truth,
         bank=False,
         stages=first.stages,
+        first=first.method,
         compared=first.compared,
+        apart=LEAN if first.compared else (),
         diagnosed=any(entry.causes for entry in entries),
         stacked_costs=False,
     )
@@ -149,6 +154,10 @@ def _schema(index: str) -> pa.Schema:
             pa.field("worst", pa.utf8()),
             pa.field("difference", pa.float32()),
             pa.field("other_a_err", pa.float32()),
+            pa.field("change", pa.float32()),
+            pa.field("outcome", pa.utf8()),
+            pa.field("parts_at", pa.utf8()),
+            pa.field("turned_by", pa.utf8()),
             pa.field("margin", pa.float32()),
             pa.field("confidence", pa.float32()),
             pa.field("shows", pa.utf8()),
@@ -176,6 +185,10 @@ def _columns(
         "worst": [_worst(entry) for entry in entries],
         "difference": [_rounded(one.difference) for one in entries],
         "other_a_err": [_rounded(one.other_a_err) for one in entries],
+        "change": [_rounded(one.change) for one in entries],
+        "outcome": [outcome(one) for one in entries],
+        "parts_at": [shown_in_viewer(one.parts_at) or "nowhere" for one in entries],
+        "turned_by": [shown_in_viewer(one.turned_by) or "-" for one in entries],
         "method": [shown_in_viewer(shortened(one.method)) for one in entries],
         "margin": [round(entry.verdict.margin, 2) for entry in entries],
         "confidence": [_rounded(one.confidence) for one in entries],
@@ -220,31 +233,32 @@ def _cards(
         name="skyline",
     )
     errors = [
-        tables.Column("a_err", name="A_err (px)"),
+        *([] if compared else [tables.Column("a_err", name="A_err (px)")]),
         tables.Column("cause", name="cause"),
         tables.Column("worst", name="worst"),
         tables.Column("wrong", name="wrong"),
     ]
-    against = []
-    if compared:
-        name = shown_in_viewer(f"yellow is {compared}, apart (px)")
-        against.append(tables.Column("difference", name=name))
-    if compared and truth:
-        against.append(tables.Column("other_a_err", name="its A_err (px)"))
+    against = _against(tables, truth, compared) if compared else []
     shown = [
         tables.Column("shows", name="shows"),
     ]
-    columns = [
+    first = [
         tables.Column("photo", name="skyline", column_type=tables.PreviewCell(thumbnail)),
         *against,
+    ]
+    rest = [
         *(errors if truth else []),
         tables.Column("confidence", name="confidence"),
         tables.Column("margin", name="margin"),
         *(shown if told else []),
         tables.Column("method", name="by"),
+    ]
+    last = [
         tables.Column("reviewed", name="reviewed", column_type=rr.components.Flag),
         tables.Column("comment", name="comment"),
     ]
+    columns = [*first, *rest, *last]
+    on_cards = [*first, *last] if compared else columns  # the table has the rest
     in_table = [tables.Column("name"), *columns]
     if truth:
         in_table.append(tables.Column("causes"))  # for filters; too long for cards
@@ -252,12 +266,31 @@ def _cards(
     if not truth:
         order = tables.SortBy("confidence", direction="ascending")
     if compared:
-        order = tables.SortBy("difference", direction="descending")
+        order = tables.SortBy("change" if truth else "difference", direction="descending")
     blueprint: TableBlueprint = tables.TableBlueprint(
-        card_layout=tables.CardLayout(title="name", link="photo", fields=columns),
+        card_layout=tables.CardLayout(title="name", link="photo", fields=on_cards),
         table_layout=tables.TableLayout(columns=in_table),
         default_layout="cards",
         filters=[tables.col("causes").str.contains(cause)] if cause else [],
         sort_by=order,
     )
     return blueprint
+
+
+def _against(tables: Any, truth: bool, compared: str) -> list[Any]:  # noqa: ANN401
+    """The columns about a second method."""
+    name = shown_in_viewer(f"yellow is {shortened(compared)}, apart (px)")
+    apart = tables.Column("difference", name=name)
+    parting = [
+        tables.Column("parts_at", name="they part at"),
+        tables.Column("turned_by", name="turned by"),
+    ]
+    if not truth:
+        return [apart, *parting]
+    errors = {
+        "a_err": "A_err (px)",
+        "other_a_err": "with the yellow line (px)",
+        "change": "change (px)",
+        "outcome": "so it is",
+    }
+    return [apart, *(tables.Column(one, name=name) for one, name in errors.items()), *parting]

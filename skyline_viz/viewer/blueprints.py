@@ -9,6 +9,7 @@
 - *Columns*: error, margin and costs along the columns.
 - *Diagnosis*: why it went wrong, where it did.
 - *Sweep*: how the path changes with a setting.
+- *Compare*, *Side by side*: where two detections part, and the stages of both.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ from skyline_viz.system.names import shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents, MethodContents
 from skyline_viz.viewer.entities import below
-from skyline_viz.viewer.stage_maps import SEARCH
+from skyline_viz.viewer.tabs.compare import compare_tab, side_by_side_tab
+from skyline_viz.viewer.tabs.search import search_tab
 
 TABS = ("Skyline", "Stages", "Tensor", "Terms", "Search", "Filter bank", "Columns")
 """The tabs of a recording of one photo with a full detection."""
@@ -47,13 +49,13 @@ def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blue
         _stages_tab(contents, _lettered(contents), "Stages"),
         *_own_tab(contents, contents.stages, "Tensor"),
         *_own_tab(contents, contents.terms, "Terms"),
-        *_own_tab(contents, SEARCH if contents.search else (), "Search"),
+        *([search_tab(contents)] if contents.search else []),
         *([_pixel_tab(contents)] if contents.columns else []),
         *([_bank_tab(contents)] if contents.bank else []),
         _columns_tab(contents),
         *([_diagnosis_tab(contents)] if contents.diagnosed else []),
         *([_sweep_tab(contents)] if contents.swept else []),
-        *([_compare_tab(contents)] if contents.compared else []),
+        *([compare_tab(contents), side_by_side_tab(contents)] if contents.compared else []),
         *([_methods_tab(contents)] if contents.methods else []),
         *(_method_tab(contents, one) for one in contents.methods),
         *([_photos_tab(contents)] if contents.photos > 1 else []),
@@ -266,26 +268,6 @@ def _sweep_tab(contents: Contents) -> rrb.Container:
     report = rrb.TextDocumentView(origin=entities.SWEEP_REPORT, name="The setting")
     side = rrb.Vertical(report, plot, row_shares=[3, 2])
     return rrb.Horizontal(pictures, side, column_shares=[2, 1], name="Sweep")
-
-
-def _compare_tab(contents: Contents) -> rrb.Container:
-    views = []
-    both = dict.fromkeys([*contents.stages, *contents.compared_stages])
-    stages = [one for one in both if "Stages" in one.tabs and one.group != "tensor"]
-    for one in stages:
-        title, stage = one.word or one.name, entities.of_quantity(one)
-        views += [
-            _photo_view(f"First: {title}", [stage, *_with_halos([entities.PATH])]),
-            _photo_view(
-                f"{contents.compared}: {title}",
-                [below(entities.OTHER, stage), *_with_halos([entities.ALTERNATIVE])],
-            ),
-        ]
-    text = rrb.TextDocumentView(origin=entities.COMPARISON, name="What differs")
-    title = shown_in_viewer(f"Report of {contents.compared}")
-    other = rrb.TextDocumentView(origin=below(entities.OTHER, entities.REPORT), name=title)
-    shares = [4] * len(stages) + [6]  # the reports need their lines
-    return rrb.Grid(*views, text, other, grid_columns=2, row_shares=shares, name="Compare")
 
 
 def _methods_tab(contents: Contents) -> rrb.Container:

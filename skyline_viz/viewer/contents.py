@@ -106,11 +106,20 @@ class Contents:
     compared: str = ""
     """Name of the second detection; nothing without one."""
 
+    first: str = "the first"
+    """Name of the first, where there is a second."""
+
+    apart: tuple[Quantity, ...] = ()
+    """Maps of what the second has more than the first, see `comparison.log_comparison`."""
+
     compared_stages: tuple[Quantity, ...] = OURS
     """Its stages, in their order."""
 
     methods: tuple[MethodContents, ...] = ()
     """Other methods on the photo."""
+
+    other_lines: int = 0
+    """Number of lines along other ridges that are in it."""
 
     swept: str = ""
     """Timeline of the setting that is swept first; nothing without a sweep."""

@@ -94,6 +94,16 @@ DIFFERENCES = "columns/difference"
 COMPARISON = "comparison"
 """How the second skyline differs, in Markdown."""
 
+APART = "apart"
+"""`APART`/stage/NAME and `APART`/term/NAME: what the map of a second detection has more than that
+of the first."""
+
+OTHER_LINES = "other_lines"
+"""`OTHER_LINES`/1 and so on: lines along other ridges than the path, the cheapest first."""
+
+OTHER_LINES_TABLE = "other_lines_table"
+"""What these lines pay for each term, in Markdown."""
+
 METRICS = "metrics"
 """`METRICS`/a_err, /worst_error, /margin and /confidence of each photo, as scalars."""
 

@@ -151,9 +151,9 @@ def log_terms(
         if term.paid_by == "all":
             added = paid.copy() if added is None else added + paid
         paid[paid == 0] = np.nan
-        _log_whole(recording, at, of_term(term.name), paid, near)
+        log_whole(recording, at, of_term(term.name), paid, near)
     if added is not None:
-        _log_whole(recording, at, ADDED, added, near)
+        log_whole(recording, at, ADDED, added, near)
 
 
 def log_search(
@@ -165,22 +165,30 @@ def log_search(
     """Log what the search for the path has found at each pixel, see `SEARCH`."""
     forward = detection.forward
     above = (forward - forward.min(axis=0)).astype(np.float32)
-    _log_whole(recording, at, FORWARD, above, near)
+    log_whole(recording, at, FORWARD, above, near)
     back = back_pointers(forward, detection.delta, detection.link_weight).astype(np.float32)
     reach = float(np.abs(back).max(initial=1.0))
-    _log_whole(recording, at, replace(BACK, low=-reach, high=reach), back, near)
+    log_whole(recording, at, replace(BACK, low=-reach, high=reach), back, near)
     paid = np.abs(back, out=back) * np.float32(detection.link_weight)
-    _log_whole(recording, at, LINK, paid, near)
+    log_whole(recording, at, LINK, paid, near)
 
 
-def _log_whole(
+def log_whole(
     recording: rr.RecordingStream,
     at: Callable[[str], str],
     quantity: Quantity,
     values: F32,
     near: Near | None,
 ) -> None:
-    """Log a map ``(H, W)``, of a large photo only as much as is kept of it."""
+    """Log a map ``(H, W)``, of a large photo only as much as is kept of it.
+
+    Args:
+        recording: Where to.
+        at: Gives the full path of an entity.
+        quantity: What the values are.
+        values: ``(H, W)``; NaN is none.
+        near: What is kept exactly of a large photo.
+    """
     entity = at(entities.of_quantity(quantity))
     if near:
         near.map(quantity, near.sample(places_of(values)), COARSE).log(recording, entity)

@@ -43,10 +43,10 @@ def test_the_recording_is_whole(recording):
 
 
 def test_it_has_all_tabs(viewer):
-    assert tab_names(viewer) == [*TABS, "Diagnosis", "Compare"]
+    assert tab_names(viewer) == [*TABS, "Diagnosis", "Compare", "Side by side"]
 
 
-@pytest.mark.parametrize("tab", [*TABS, "Diagnosis", "Compare"])
+@pytest.mark.parametrize("tab", [*TABS, "Diagnosis", "Compare", "Side by side"])
 def test_every_tab_shows_something(viewer, tab):
     show_tab(viewer, tab)
     picture = np.asarray(settled_picture(viewer))

@@ -13,9 +13,10 @@ from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.gallery import flag_page as module
+from skyline_viz.gallery.entry import Entry
 from skyline_viz.gallery.flag_page import POLICY, about, flag_page
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
-from skyline_viz.gallery.store import Entry, Gallery
+from skyline_viz.gallery.store import Gallery
 
 NAMES = ["hash#1", "plain"]
 
@@ -167,4 +168,9 @@ def test_what_a_detection_came_to_is_said_in_words():
     assert about(wrong) == (
         "2.00 px from paper · A_err 0.50 px · too steep",
         "wrong 0 to 9 · margin 1.23 at 7 · by default",
+    )
+    turned = replace(wrong, other_a_err=3.0, parts_at="edges, column 7", turned_by="sky")
+    assert about(turned) == (
+        "2.00 px from paper · A_err +2.50 px by it · A_err 0.50 px · too steep",
+        "wrong 0 to 9 · part at edges, column 7, turned by sky · margin 1.23 at 7 · by default",
     )

@@ -10,10 +10,10 @@ import skyline_viz as sv
 from skyline_viz.command_line.inputs import collect
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
-from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.gallery.documents import GalleryError
+from skyline_viz.gallery.entry import by_need
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
-from skyline_viz.gallery.store import VERSION, Entry, Gallery, by_need
+from skyline_viz.gallery.store import Gallery
 from skyline_viz.running.batch import Failure
 from skyline_viz.viewer import entities
 from testing.recordings import Read, verify
@@ -201,27 +201,12 @@ def test_photos_that_are_gone_leave_the_gallery_but_not_the_reviews(photos, tmp_
     assert read_flags(gallery.folder) == {"p0": Flag(reviewed=True, comment="fine")}
 
 
-def test_without_a_truth_the_least_sure_come_first():
-    entries = [
-        Entry(name, "", "", 9, 9, Verdict(a_err, None, None, None, None, margin, 0))
-        for name, margin, a_err in (("a", 3, None), ("b", 0.5, None), ("c", 9, 0.1), ("d", 9, 7))
-    ]
-    assert [one.name for one in by_need(entries)] == ["d", "c", "b", "a"]
-
-
 @pytest.mark.parametrize("content", ["", "{}", '{"version": 99, "photos": []}', '{"version": 1}'])
 def test_a_damaged_index_is_one_sentence(photos, tmp_path, content):
     (tmp_path / "g").mkdir()
     (tmp_path / "g" / "gallery.json").write_text(content)
     with pytest.raises(GalleryError, match=r"gallery\.json is damaged"):
         build(Gallery(tmp_path / "g"), photos)
-
-
-def test_an_index_with_unknown_fields_is_damaged(tmp_path):
-    text = json.dumps({"version": VERSION, "photos": [{"name": "a", "colour": "red"}]})
-    (tmp_path / "gallery.json").write_text(text)
-    with pytest.raises(GalleryError, match="damaged"):
-        Gallery(tmp_path).entries()
 
 
 def test_items_can_be_put_in_by_hand(tmp_path):

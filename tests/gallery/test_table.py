@@ -5,10 +5,11 @@ from dataclasses import replace
 import pytest
 
 from skyline_viz.evaluation.verdict import Verdict
-from skyline_viz.gallery.store import Entry
+from skyline_viz.gallery.entry import Entry
 from skyline_viz.gallery.table import contents_of
 from skyline_viz.stage import OURS
 from skyline_viz.viewer.blueprints import detection_blueprint
+from skyline_viz.viewer.comparison import LEAN
 from skyline_viz.viewer.contents import Contents
 
 VERDICT = Verdict(None, None, None, None, None, 1.0, 0)
@@ -59,7 +60,9 @@ def test_the_layout_holds_what_the_recordings_hold(method, stages):
         1000,
         bank=False,
         stages=stages,
+        first=method,
         compared="paper",
+        apart=LEAN,
         diagnosed=True,
         stacked_costs=False,
     )

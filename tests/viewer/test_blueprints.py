@@ -40,6 +40,7 @@ def test_a_plain_detection_has_the_tabs_of_our_detector():
         ({"diagnosed": True, "truth": True}, "Diagnosis"),
         ({"swept": "delta"}, "Sweep"),
         ({"compared": "paper"}, "Compare"),
+        ({"compared": "paper"}, "Side by side"),
         ({"photos": 3}, "Photos"),
         ({"methods": (MethodContents("edges"),)}, "edges"),
     ],
@@ -104,5 +105,5 @@ def test_the_second_of_two_methods_shows_stages_that_the_first_has_not():
     probability = Quantity("sky probability", group="maps")
     contents = Contents(300, 800, compared="own", compared_stages=(*OURS[:1], probability))
     tab = detection_blueprint(contents).root_container.contents[-1]
-    assert tab.name == "Compare"
+    assert tab.name == "Side by side"
     assert "+ /other/maps/sky_probability" in origins(tab)

@@ -1,15 +1,19 @@
 """Methods side by side in a recording."""
 
+import json
+
 import pytest
 
 import skyline_viz as sv
 from skyline_viz.cli import main
 from skyline_viz.command_line.inputs import collect
 from skyline_viz.commands.gallery import build
+from skyline_viz.diagnosis.parting import parting
 from skyline_viz.gallery.store import Gallery
 from skyline_viz.methods.registry import make_method
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.method_recording import COLOURS
+from skyline_viz.viewer.parting_words import place
 from testing import SAMPLES
 from testing.recordings import Read, verify
 
@@ -63,17 +67,27 @@ def test_more_methods_than_colours_are_refused(capsys):
     assert "9 methods at most can be told apart" in capsys.readouterr().err
 
 
-def test_galleries_sort_by_the_difference_between_two_methods(tmp_path):
+def test_galleries_sort_by_what_the_second_of_two_methods_makes_worse(tmp_path, capsys):
     inputs = collect([SAMPLES])
     ours, paper = make_method("default"), make_method("paper")
     entries, failures = build(tmp_path / "g", inputs, ours, 1, paper)
     assert not failures
-    apart = [entry.difference for entry in entries]
-    assert apart == sorted(apart, reverse=True)
+    changes = [entry.other_a_err - entry.verdict.a_err for entry in entries]
+    assert changes == sorted(changes, reverse=True)
+    assert changes == [entry.change for entry in entries]
     assert {entry.compared for entry in entries} == {"paper"}
     worst = entries[0]
     photo = sv.read_photo(worst.photo)
-    lines = [method.detect(photo).skyline.rows for method in (ours, paper)]
+    found = [method.detect(photo) for method in (ours, paper)]
+    lines = [one.skyline.rows for one in found]
     assert worst.difference == pytest.approx(abs(lines[0] - lines[1]).mean())
+    parted = parting(*found)
+    assert (worst.turned_by, worst.parts_at) == (parted.turned_by, place(parted.on_lines))
     kept = Gallery(tmp_path / "g").entries()
     assert kept[worst.name] == worst
+    document = json.loads((tmp_path / "g" / "gallery.json").read_text())
+    told = document["comparison"]
+    assert (told["first"], told["second"]) == ("default", "paper")
+    assert told["better"] + told["worse"] + told["level"] == len(entries)
+    assert told["change"] == pytest.approx(sum(changes) / len(changes))
+    assert f"won {told['better']}, lost {told['worse']}" in capsys.readouterr().out
