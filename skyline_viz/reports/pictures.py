@@ -2,7 +2,7 @@
 
 A stage that is known at edge pixels alone keeps its lines when it is made smaller: each pixel of
 the picture shows the loudest one of those that fall into it, which is the strongest edge, the
-highest score, or the cheapest pixel.
+highest score, or the cheapest pixel. Edges themselves are as bright as there are many.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from PIL import Image
 from skyline_viz.arrays import F32, U8, Int
 from skyline_viz.colours import coloured
 from skyline_viz.detection import Detection
-from skyline_viz.edges import edge_pixels
 from skyline_viz.overlay import css
 from skyline_viz.stage import Quantity, Stage
 
 _QUALITIES = (82, 70, 55, 40, 25)  # of WebP, tried from the best one on
+_AVERAGED = cv2.INTER_AREA
 _STOPS = 9  # colours of a scale
 
 
@@ -76,7 +76,7 @@ def reduced_size(height: int, width: int, most: int) -> tuple[int, int]:
 def photo_picture(photo: U8, most: int, most_bytes: int) -> Picture:
     """A photo ``(H, W, 3)``, at most `most` pixels a side and about `most_bytes` large."""
     height, width = reduced_size(len(photo), photo.shape[1], most)
-    small = cv2.resize(photo, (width, height), interpolation=cv2.INTER_AREA)
+    small = cv2.resize(photo, (width, height), interpolation=_AVERAGED)
     return encoded(np.asarray(small, np.uint8), most_bytes)
 
 
@@ -89,7 +89,7 @@ def encoded(picture: U8, most_bytes: int) -> Picture:
             break
     height, width = picture.shape[:2]
     if len(data) > most_bytes and min(height, width) > 16:
-        half = cv2.resize(picture, (width // 2, height // 2), interpolation=cv2.INTER_AREA)
+        half = cv2.resize(picture, (width // 2, height // 2), interpolation=_AVERAGED)
         return encoded(np.asarray(half, np.uint8), most_bytes)
     address = f"data:image/webp;base64,{base64.b64encode(data).decode('ascii')}"
     return Picture(address, width, height)
@@ -118,8 +118,8 @@ def _stage(
         places = detection.edge_rows, detection.edge_columns
         values = _loudest_points(quantity, stage.values, places, shape, size)
     elif stage.where == "mask":
-        places = edge_pixels(stage.values)
-        values = _loudest_points(quantity, np.ones(len(places[0])), places, shape, size)
+        share = cv2.resize(stage.values.astype(np.float32), size[::-1], interpolation=_AVERAGED)
+        values = np.sqrt(np.asarray(share, np.float32))  # one pixel in ten is a line still
     else:
         whole = stage.map()
         assert whole is not None  # the path, which alone has none, is on no tab
@@ -160,7 +160,7 @@ def _reduced_map(quantity: Quantity, values: F32, size: tuple[int, int]) -> F32:
     """A map ``(H, W)`` at ``(h, w)``: a smooth one averaged, else the loudest of each part."""
     height, width = values.shape
     if quantity.smooth:
-        return np.asarray(cv2.resize(values, size[::-1], interpolation=cv2.INTER_AREA), np.float32)
+        return np.asarray(cv2.resize(values, size[::-1], interpolation=_AVERAGED), np.float32)
     sign = np.float32(-1 if _quiet_when_high(quantity) else 1)
     known = np.where(np.isnan(values), np.float32(-np.inf), sign * values)
     kernel = np.ones((math.ceil(height / size[0]), math.ceil(width / size[1])), np.uint8)
