@@ -104,22 +104,25 @@ async function copy(button) {
     await navigator.clipboard.writeText(button.dataset.text ?? "");
     button.textContent = "Copied";
   } catch {
-    const text = button.parentElement?.querySelector("code");
+    const text = button.parentElement?.querySelector(".codes");
     if (text) getSelection()?.selectAllChildren(text);
   }
 }
 
+/** Open or close the rest of a card. @param {Element | null} card */
+function turn(card) {
+  const rest = card ? find(card, ".inside", HTMLDetailsElement) : undefined;
+  if (rest) rest.open = !rest.open;
+}
+
 const form = find(document, "#controls", HTMLFormElement);
 const page = form && new Page(form);
-document.addEventListener("click", (event) => {
-  const target = event.target instanceof Element ? event.target : undefined;
-  const button = target?.closest("button");
+document.addEventListener("click", ({ target }) => {
+  if (!(target instanceof Element)) return;
+  const button = target.closest("button");
   if (button?.matches(".copy")) copy(button);
-  else if (button?.matches(".by-cause")) page?.choose(button.dataset.cause ?? "");
-  else if (target?.closest(".top .picture")) {
-    const details = find(target.closest("article") ?? document, ".inside", HTMLDetailsElement);
-    if (details) details.open = !details.open;
-  }
+  else if (button) page?.choose(button.dataset.cause ?? "");
+  else if (target.closest(".top .picture")) turn(target.closest("article"));
 });
 
 export {};

@@ -1,0 +1,43 @@
+"""Lines as paths of SVG: where they are, and by how much they may be off."""
+
+import re
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from skyline_viz.reports.lines import curve_path, line_path, path_of, rows_path
+from skyline_viz.skyline import Skyline
+
+
+def points(path):
+    """The runs of a path, each a list of (x, y)."""
+    runs = [one for one in path.split("M") if one]
+    return [[tuple(map(float, point.split())) for point in run.split("L")] for run in runs]
+
+
+def test_a_line_reaches_from_rim_to_rim_and_ends_where_it_is_not_visible():
+    line = Skyline([5, 5, 7, 7], visible=[True, True, False, True])
+    assert points(line_path(line, 0.01)) == [[(0, 5), (2, 5)], [(3, 7), (4, 7)]]
+
+
+def test_no_line_is_no_path():
+    assert rows_path(np.array([3.0]), np.array([False]), 0.1) == ""
+    assert path_of([]) == ""
+
+
+@given(st.lists(st.integers(0, 500), min_size=2, max_size=80), st.sampled_from([0.1, 0.5, 2.0]))
+def test_every_column_is_as_near_as_was_asked(rows, tolerance):
+    (run,) = points(line_path(Skyline(rows), tolerance))
+    x, y = np.array(run).T
+    assert (x[0], x[-1]) == (0, len(rows))
+    steps = np.abs(np.diff(rows, prepend=rows[0], append=rows[-1]))
+    steepest = np.maximum(steps[:-1], steps[1:])  # a point is moved beside a steep line, too
+    apart = np.abs(np.interp(np.arange(len(rows)) + 0.5, x, y) - rows)
+    assert (apart <= (tolerance + 0.2) * np.hypot(1, steepest + 1)).all()
+
+
+def test_a_curve_has_its_largest_value_at_the_top_and_gaps():
+    path = curve_path(np.array([0.0, np.nan, 4.0]), 0.0, 4.0, (30, 8))
+    assert points(path) == [[(5, 8)], [(25, 0)]]
+    assert re.fullmatch(r"M5 8M25 0", path)
