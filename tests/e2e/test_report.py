@@ -4,6 +4,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 
 from skyline_viz.cli import main
+from skyline_viz.skyline import Skyline
 from testing.detections import write_slanting
 
 NAMES = ["p0", "p1", "p2", "p3"]
@@ -11,9 +12,12 @@ NAMES = ["p0", "p1", "p2", "p3"]
 
 @pytest.fixture(scope="module")
 def report(tmp_path_factory):
-    """Four photos by a method that is wrong on some of them, and one that cannot be read."""
+    """Four photos, one of them with a wrong segment, and one that cannot be read."""
     folder = tmp_path_factory.mktemp("report")
     items = write_slanting(folder / "hills")
+    rows = items[1].truth().rows.copy()
+    rows[30:60] -= 12
+    Skyline(rows).write_csv(items[1].truth_path)
     items[4].photo_path.write_bytes(b"no photo")
     file = folder / "r.html"
     words = ["--method", "default:sky_weight=0,delta=1", "--report", str(file)]
@@ -45,7 +49,7 @@ def window(browser, report):
 
 
 def cards(page):
-    return page.locator("article:visible h3").all_inner_texts()
+    return page.locator("article:visible .name").all_inner_texts()
 
 
 def errors_of(page):
