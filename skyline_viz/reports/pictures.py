@@ -57,10 +57,10 @@ class StagePicture:
     """Colours of its scale, evenly spaced, as style sheets write them; none for a yes or no."""
 
     low: str = ""
-    """Value of the first colour, with its unit."""
+    """Value of the first colour."""
 
     high: str = ""
-    """Value of the last one."""
+    """Value of the last one, with its unit."""
 
 
 def reduced_size(height: int, width: int, most: int) -> tuple[int, int]:
@@ -128,7 +128,7 @@ def _stage(
     made = encoded(picture, most_bytes)
     if stage.where == "mask":
         return StagePicture(stage.about, made)
-    words = [f"{_short(value)}{quantity.unit}" for value in (low, high)]
+    words = _short(low), f"{_short(high)}{quantity.unit}"
     stops = _places(quantity, np.linspace(0, 1, _STOPS))
     colours = coloured(stage.colour_map, stops).tolist()
     return StagePicture(stage.about, made, tuple(css((r, g, b)) for r, g, b in colours), *words)
