@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import tyro
 
 from skyline_viz.command_line.messages import UsageError, counted, tell
-from skyline_viz.system.memory import in_words
 
 if TYPE_CHECKING:
     from skyline_viz.datasets import Dataset
@@ -81,4 +80,5 @@ def write(path: Path, report: Report) -> None:
     from skyline_viz.reports import write_report
 
     write_report(path, report)
-    tell(f"{path}: {counted(len(report.photos), 'photo')}, {in_words(path.stat().st_size)}")
+    size = path.stat().st_size / 1e6
+    tell(f"{path}: {counted(len(report.photos), 'photo')}, {size:.1f} MB")
