@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help demo test check docs bounds fuzz legs bench reliability pictures samples bank sky lock clean
+.PHONY: help demo test check docs bounds fuzz legs next bench reliability pictures samples bank sky lock clean
 
 SOURCES = pyproject.toml requirements.txt tools/setup.sh
 MKDOCS = NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict --quiet
@@ -41,6 +41,9 @@ fuzz: .venv/.installed-dev  ## The properties, with twenty times as many example
 legs: .venv/.installed-dev  ## The tests with the lowest and the newest versions, on Python 3.11 and 3.13.
 	tools/legs.sh
 
+next: .venv/.installed-dev  ## The tests of the viewer with the newest rerun-sdk, whatever is pinned; for once a week.
+	tools/next.sh
+
 bench: .venv/.installed-dev  ## The README's figures; DATA=FOLDER names the real data sets, MODELS=FOLDER sky models that have not seen one of them, ONLY=PART a part.
 	.venv/bin/python -m benchmarks $(if $(DATA),"$(DATA)" $(if $(MODELS),"$(MODELS)")) $(if $(ONLY),--only $(ONLY))
 
@@ -53,6 +56,7 @@ pictures: .venv/.installed-dev  ## Draw the pictures of the docs again.
 	.venv/bin/python -m tools.viewer_pictures docs
 	.venv/bin/skyline-viz gallery sample_data --screenshot docs/gallery.jpg
 	.venv/bin/python -m tools.flag_picture docs
+	.venv/bin/python -m tools.report_picture docs
 	.venv/bin/python -m tools.page_pictures docs
 
 samples: .venv/.installed-run  ## Rebuild sample_data, byte for byte.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from skyline_viz import diagnosis, evaluation
 from skyline_viz.command_line.messages import UsageError, counted, say, status_after, tell
 from skyline_viz.command_line.on_truth import OnTruth
+from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder, Switch
 from skyline_viz.system.memory import RECORDING
 
@@ -34,9 +35,13 @@ class Diagnose(OnTruth):
     out: OptionalFolder = None
     """Folder for segments.csv and diagnosis.json; made where it is missing."""
 
+    report: ReportFile = None
+    """Write a report to be mailed: one HTML file with photos, causes, remedies and stages."""
+
     def run(self) -> int:
         """Diagnose all photos that have a truth; return the exit status."""
         diagnosis.checked_tolerance(self.tolerance)
+        check_report(self.report)
         dataset, items = self.open()
         if self.photo and self.photo not in {item.name for item in items}:
             raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
@@ -58,8 +63,14 @@ class Diagnose(OnTruth):
         if done := kept.said():
             say(done)
         self._tell(dataset.name, found)
+        failures = [*assigned.failures[name], *failed]
+        if self.report:
+            how = f"{name}, {f'{self.folds}-fold cross-validation' if self.folds else 'as it is'}"
+            failures += report_data_set(
+                self.report, dataset, how, tasks, failures, diagnosed=found, workers=workers
+            )
         kept.remove()
-        return status_after([*assigned.failures[name], *failed])
+        return status_after(failures)
 
     def _method(self) -> Method:
         return self.methods.one(to_train=bool(self.folds))

@@ -15,13 +15,16 @@ from skyline_viz.command_line.messages import (
     tell_drawn,
 )
 from skyline_viz.command_line.on_truth import OnTruth
+from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from skyline_viz.datasets import Dataset
     from skyline_viz.evaluation import Evaluation
     from skyline_viz.method import Method
+    from skyline_viz.running.batch import Failure
 
 
 @dataclass(frozen=True)
@@ -31,8 +34,12 @@ class Evaluate(OnTruth):
     out: OptionalFolder = None
     """Folder for summary.json, photos.csv and histogram.png; made where it is missing."""
 
+    report: ReportFile = None
+    """Write a report to be mailed: one HTML file with figures, photos, causes and stages."""
+
     def run(self) -> int:
         """Evaluate all photos that have a truth; return the exit status."""
+        check_report(self.report)
         dataset, items = self.open()
         workers, kept = self.begin("evaluate", dataset, items, self.out)
         chosen, how = self._methods(dataset.name)
@@ -58,7 +65,23 @@ class Evaluate(OnTruth):
         _print(title, found)
         if self.out:
             tell(f"{listed(evaluation.FILES)} in {self.out}")
-        return status_after(found.failures)
+        late = self._report(dataset, how, found, workers) if self.report else []
+        return status_after([*found.failures, *late])
+
+    def _report(
+        self, dataset: Dataset, how: str, found: Evaluation, workers: int
+    ) -> Sequence[Failure]:
+        """Write the report: photos as the first method finds them, with the figures of all."""
+        assert self.report is not None
+        first, *others = found.tasks
+        notes = [f"Photos are shown as {first} finds them."] if others else []
+        notes.append("What would mend them is tried by skyline-viz diagnose.")
+        tested = {one.name for one in found.results[first]}
+        tasks = [task for task in found.tasks[first] if task.name in tested]
+        return report_data_set(
+            self.report, dataset, how, tasks, found.failures,
+            results=found.results, notes=notes, workers=workers,
+        )  # fmt: skip
 
     def _methods(self, dataset: str) -> tuple[Sequence[Method], str]:
         """What is to be tested and how; says so where that was trained on these very photos."""

@@ -24,6 +24,7 @@ from skyline_viz.command_line.messages import (
     tell,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.reporting import ReportFile, check_report
 from skyline_viz.command_line.settings import (
     OptionalFolder,
     Switch,
@@ -32,6 +33,7 @@ from skyline_viz.command_line.settings import (
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee, pixels_of
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.commands import inspect_more
+from skyline_viz.commands.inspect_report import write_report
 from skyline_viz.running.batch import Failure, sentence
 from skyline_viz.running.progress import ProgressBar
 from skyline_viz.system.aftermath import passing_folder
@@ -47,11 +49,11 @@ from skyline_viz.system.memory import (
 if TYPE_CHECKING:
     import rerun as rr
 
+    from skyline_viz.datasets.layouts import DatasetItem
     from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.detector import Detector
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Method
-    from skyline_viz.skyline import Skyline
     from skyline_viz.viewer.contents import Contents, Fidelity
 
 
@@ -80,6 +82,9 @@ class Inspect:
 
     headless: Switch = False
     """Make the recordings and throw them away: a check that everything works, without a viewer."""
+
+    report: ReportFile = None
+    """Write a report to be mailed instead of opening the viewer: one HTML file that needs none."""
 
     split: Switch = False
     """One recording a photo."""
@@ -116,6 +121,10 @@ class Inspect:
             raise UsageError(f"--truth belongs to one photo, and there are {len(inputs)}.")
         if self.sweep and len(inputs) > 1:
             raise UsageError(f"--sweep belongs to one photo, and there are {len(inputs)}.")
+        if self.report:
+            title = inputs[0].name if len(inputs) == 1 else self.photos[0].resolve().name
+            items = [replace(self._with_truth(one), name=one.name) for one in inputs]
+            return write_report(self.report, title, items, self.methods.chosen())
         failures: list[Failure] = []
         using = self._using(inputs, failures)
         pixels = self._foresee(inputs)
@@ -151,12 +160,17 @@ class Inspect:
 
     def _check_targets(self) -> None:
         check_picture(self.screenshot)
+        check_report(self.report)
         if self.sweep_training and not self.sweep:
             raise UsageError("--sweep-training trains filters for --sweep, which is not asked for.")
-        named = ("save", "screenshot", "serve", "connect", "headless")
+        named = ("save", "screenshot", "serve", "connect", "headless", "report")
         chosen = [f"--{name}" for name in named if getattr(self, name)]
         if len(chosen) > 1:
             raise UsageError(f"{' and '.join(chosen)} exclude each other.")
+        if self.report and (self.sweep or self.split):
+            raise UsageError(
+                f"--report and {'--sweep' if self.sweep else '--split'} exclude each other."
+            )
         from skyline_viz.viewer.program.process import has_display  # the viewer is heavy
 
         if not chosen and not has_display():
@@ -250,7 +264,7 @@ class Inspect:
         from skyline_viz.viewer.contents import Contents, MethodContents
         from skyline_viz.viewer.recording import log_along_columns, log_detection
 
-        photo, truth = one.item.photo(), self._truth_of(one)
+        photo, truth = one.item.photo(), self._with_truth(one).truth()
         warm_up()
         found = using.detector.detect(photo)
         alone = together == 1
@@ -318,12 +332,12 @@ class Inspect:
         failures += failed
         return banks
 
-    def _truth_of(self, one: NamedItem) -> Skyline | None:
+    def _with_truth(self, one: NamedItem) -> DatasetItem:
+        """A photo with the truth that was given, or its own."""
         if self.truth is None:
-            return one.item.truth()
+            return one.item
         sky, terrain = self.truths.sky, self.truths.terrain
-        given = replace(one.item, truth_path=self.truth, label_map=False, sky=sky, terrain=terrain)
-        return given.truth()
+        return replace(one.item, truth_path=self.truth, label_map=False, sky=sky, terrain=terrain)
 
     def _lay_out(self, recording: rr.RecordingStream, contents: Contents | None) -> None:
         from skyline_viz.viewer.blueprints import detection_blueprint

@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from skyline_viz.datasets.item import photo_and_truth
+from skyline_viz.detection import Detection
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.diagnosis.record import Diagnosed, pack, unpack
 from skyline_viz.diagnosis.remedies import try_remedies
@@ -16,6 +17,7 @@ from skyline_viz.evaluation.tasks import PhotoTask, run_tasks
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import Codec, Kept
 from skyline_viz.running.warming import warm_up
+from skyline_viz.skyline import Skyline
 
 
 def diagnose_photos(
@@ -64,9 +66,32 @@ def diagnose_photo(tolerance: float | None, task: PhotoTask, *, remedies: bool) 
     photo, truth = photo_and_truth(task.item)
     warm_up()
     detection = task.method.detect(photo)
+    return diagnose_detection(task.name, detection, truth, tolerance, remedies=remedies)
+
+
+def diagnose_detection(
+    name: str,
+    detection: Detection,
+    truth: Skyline,
+    tolerance: float | None = None,
+    *,
+    remedies: bool,
+) -> Diagnosed:
+    """Diagnose what was found in a photo, and try what would mend it.
+
+    Args:
+        name: What the photo is called.
+        detection: The detection.
+        truth: The true line.
+        tolerance: See `diagnosis.diagnose`.
+        remedies: Whether to try other settings, too.
+
+    Raises:
+        SkylineError: The truth does not fit, or is visible nowhere.
+    """
     found = diagnose(detection, truth, tolerance)
     errors = column_errors(detection.skyline, truth)
     tried = try_remedies(detection, truth, found) if remedies else ()
     a_err = float(np.nanmean(errors))
-    gross = is_gross_miss(a_err, len(photo))
-    return Diagnosed(task.name, a_err, gross, int(truth.visible.sum()), found, tried)
+    gross = is_gross_miss(a_err, len(detection.photo))
+    return Diagnosed(name, a_err, gross, int(truth.visible.sum()), found, tried)

@@ -217,4 +217,6 @@ def _tested(assigned: Assigned, workers: int, kept: Kept | None) -> Evaluation:
         results[name], failed = compare_photos(tasks, workers=workers, kept=kept, title=title)
         failures[name] = [*assigned.failures[name], *failed]
     told = tuple(told_once(failures))
-    return Evaluation(results, told, assigned.methods, assigned.folds, assigned.seed)
+    return Evaluation(
+        results, told, assigned.methods, assigned.tasks, assigned.folds, assigned.seed
+    )

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from skyline_viz.evaluation import terminal
 from skyline_viz.evaluation.results import PhotoResult, Summary
+from skyline_viz.evaluation.tasks import PhotoTask
 from skyline_viz.method import Method
 from skyline_viz.running.batch import Failure
 
@@ -25,6 +26,9 @@ class Evaluation:
     methods: Mapping[str, Method] = field(default_factory=dict)
     """The methods by name: of a cross-validation as the first fold was tested with them. One that
     could not learn is missing."""
+
+    tasks: Mapping[str, Sequence[PhotoTask]] = field(default_factory=dict)
+    """For each method, by its name, the photos, each with the method as it was tested on it."""
 
     folds: int = 0
     """Folds of the cross-validation; 0 is none."""

@@ -13,12 +13,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
 from skyline_viz.arrays import F64
+from skyline_viz.evaluation.distribution import TOP, shares
 from skyline_viz.evaluation.results import PhotoResult
 from skyline_viz.files import replacing
 from skyline_viz.system.names import printable, shortened, shown_in_viewer
-
-TOP = 10
-"""A_err in pixels from which on photos share the histogram's last bin."""
 
 _GREY = "#595959"
 _MAGENTA = "#FF2D95"
@@ -33,9 +31,7 @@ def histogram(results: Sequence[PhotoResult]) -> F64:
     >>> histogram(results)[:3].round(2)
     array([0.33, 0.67, 0.  ])
     """
-    bins = [min(int(result.a_err), TOP) for result in results]
-    counts = np.bincount(bins, minlength=TOP + 1).astype(np.float64)
-    return counts / max(len(results), 1)
+    return shares([result.a_err for result in results])
 
 
 def write_histogram(
@@ -52,13 +48,13 @@ def write_histogram(
     """
     figure = Figure(figsize=(6.4 + 0.4 * (len(results) - 1), 3.8), dpi=150, layout="constrained")
     axes = figure.add_subplot()
-    shares = {name: histogram(found) for name, found in results.items()}
-    if len(shares) == 1:
-        _draw_one(axes, *shares.values())
-    elif shares:
-        _draw_several(axes, shares)
+    drawn = {name: histogram(found) for name, found in results.items()}
+    if len(drawn) == 1:
+        _draw_one(axes, *drawn.values())
+    elif drawn:
+        _draw_several(axes, drawn)
         figure.legend(loc="outside right upper", frameon=False, fontsize=8)
-    highest = max((float(one.max()) for one in shares.values()), default=0.0)
+    highest = max((float(one.max()) for one in drawn.values()), default=0.0)
     axes.set_title(shown_in_viewer(printable(title)), parse_math=False, loc="left", fontsize=11)
     axes.set_xlabel("$A_{err}$ (pixels)")
     axes.set_ylabel("share of photos")
@@ -75,24 +71,24 @@ def write_histogram(
         FigureCanvasAgg(figure).print_figure(temporary)
 
 
-def _draw_one(axes: Axes, shares: F64) -> None:
+def _draw_one(axes: Axes, heights: F64) -> None:
     """Bars with their figures; what is far off stands out."""
-    bars = axes.bar(np.arange(len(shares)) + 0.5, shares, width=_WIDTH, color=_GREY)
+    bars = axes.bar(np.arange(len(heights)) + 0.5, heights, width=_WIDTH, color=_GREY)
     bars[-1].set_color(_MAGENTA)
     axes.bar_label(
         bars,
-        [f"{100 * share:.3g}%" if share else "" for share in shares],
+        [f"{100 * share:.3g}%" if share else "" for share in heights],
         padding=2,
         fontsize=8,
         color=_GREY,
     )
 
 
-def _draw_several(axes: Axes, shares: Mapping[str, F64]) -> None:
+def _draw_several(axes: Axes, drawn: Mapping[str, F64]) -> None:
     """Bars of all methods beside each other in each bin, from dark to light."""
-    width = _WIDTH / len(shares)
-    colours = colormaps["viridis"](np.linspace(0, 0.9, len(shares)))
-    for place, (name, one) in enumerate(shares.items()):
+    width = _WIDTH / len(drawn)
+    colours = colormaps["viridis"](np.linspace(0, 0.9, len(drawn)))
+    for place, (name, one) in enumerate(drawn.items()):
         left = (1 - _WIDTH) / 2 + place * width
         label = shown_in_viewer(shortened(name)).replace("$", r"\$")
         axes.bar(

@@ -79,3 +79,13 @@ def test_the_command_tells_one_photo_in_full(capsys):
     assert "has no photo nobody" in capsys.readouterr().err
     assert main(["diagnose", str(SAMPLES), "--tolerance", "-1"]) == 2
     assert main(["diagnose", str(SAMPLES), "--folds", "2", "--bank", "x.npz"]) == 2
+
+
+def test_a_report_has_all_photos_causes_and_remedies(flat, tmp_path, capsys):
+    write_dataset(tmp_path / "set", flat, flat_truth(slice(100, 200), 30))
+    file = tmp_path / "r.html"
+    assert main(["diagnose", str(tmp_path / "set"), "--report", str(file)]) == 0
+    assert f"{file}: 1 photo, " in capsys.readouterr().out
+    text = file.read_text(encoding="utf-8")
+    assert "columns 100 to 199" in text
+    assert main(["diagnose", str(tmp_path / "set"), "--report", str(tmp_path / "r.pdf")]) == 2

@@ -95,3 +95,13 @@ def test_several_methods_write_the_files_that_one_writes(say, hills, tmp_path):
     with (tmp_path / "report" / "photos.csv").open(newline="") as file:
         lines = list(csv.DictReader(file))
     assert [line["method"] for line in lines] == ["default"] * 4 + ["edges"] * 4
+
+
+def test_a_report_shows_the_first_method_and_tells_the_others(say, hills, tmp_path):
+    words = ["--method", "edges", "paper", "--folds", "2", "--report", "r.html"]
+    status, out, _ = say("evaluate", hills, *words)
+    assert status == 0
+    assert "r.html: 4 photos, " in out
+    text = (tmp_path / "r.html").read_text(encoding="utf-8")
+    assert "Photos are shown as edges finds them." in text
+    assert text.count("paper: A_err ") == 4

@@ -1,0 +1,6 @@
+from .document import Report as Report
+from .document import page as page
+from .document import write_report as write_report
+from .looking import look_at as look_at
+from .photo_report import PhotoReport as PhotoReport
+from .photo_report import photo_report as photo_report

@@ -1,0 +1,27 @@
+"""Other settings by what they are worth."""
+
+from skyline_viz.diagnosis.diagnosing import Diagnosis
+from skyline_viz.diagnosis.record import Diagnosed
+from skyline_viz.diagnosis.remedies import Remedy
+from skyline_viz.reports.worth import MOST, worths
+
+
+def photo(name, gross, *tried):
+    remedies = tuple(Remedy(words, "", 1, 2, 0.0, change, now) for words, change, now in tried)
+    return Diagnosed(name, 9.0, gross, 10, Diagnosis((), 4.0), remedies)
+
+
+def test_the_mean_over_all_photos_ranks_and_gross_misses_are_counted():
+    found = [
+        photo("a", True, ("more", -8.0, False), ("less", -1.0, True), ("none", 1.0, True)),
+        photo("b", False, ("more", 2.0, True), ("less", -4.0, False), ("none", -1.0, False)),
+    ]
+    told = [(one.name, one.change, one.saved, one.lost) for one in worths(found)]
+    assert told == [("more", -3.0, 1, 1), ("less", -2.5, 0, 0)]
+    assert (worths(found)[0].repaired, worths(found)[0].broken) == (2, 4)
+
+
+def test_a_list_is_short_and_nothing_tried_is_nothing_worth():
+    assert worths([photo("a", True)]) == []
+    many = [(f"s{number}", -float(number), False) for number in range(1, 30)]
+    assert len(worths([photo("a", True, *many)])) == MOST
