@@ -32,7 +32,7 @@ class Diagnose(OnTruth):
     """Do not try what would help most: other settings, on all photos."""
 
     out: OptionalFolder = None
-    """Folder for segments.csv and diagnosis.json; made where it is missing."""
+    """Folder for segments.csv, diagnosis.json and causes.png; made where it is missing."""
 
     def run(self) -> int:
         """Diagnose all photos that have a truth; return the exit status."""
@@ -85,4 +85,5 @@ class Diagnose(OnTruth):
         if self.out:
             diagnosis.write_csv(self.out / "segments.csv", found)
             diagnosis.write_json(self.out / "diagnosis.json", name, found)
-            tell(f"segments.csv and diagnosis.json in {self.out}")
+            diagnosis.write_picture(self.out / "causes.png", name, found)
+            tell(f"segments.csv, diagnosis.json and causes.png in {self.out}")

@@ -171,6 +171,7 @@ class Diagnosis:
             "segments": [
                 {
                     **{name: getattr(segment, name) for name in kept},
+                    "title": segment.title,
                     "trials": [vars(trial) for trial in segment.trials],
                 }
                 for segment in self.segments
@@ -261,6 +262,8 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit) -> Segment:
         proof = trials.proof(terms, contributing)
         share = proof.repaired if proof else 0.0
         said = f"{costs} {evidence.terms_equal(proof)}"
+    if cause == "cheaper path" or "missed edge" in (cause, *contributing):
+        said = f"{said} {evidence.found_anew(trials.anew())}"
     there = None if cause == "truth doubtful" else place_of(case, trials.by(terms), *trials.reach)
     errors = case.errors[run[0] : run[1] + 1]
     return Segment(

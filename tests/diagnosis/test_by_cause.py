@@ -1,9 +1,11 @@
 """A diagnosed data set, cause by cause."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from skyline_viz.diagnosis.by_cause import by_cause
+from skyline_viz.diagnosis.by_cause import by_cause, over_all
 from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment
 from skyline_viz.diagnosis.record import Diagnosed
 from skyline_viz.diagnosis.remedies import Remedy
@@ -69,6 +71,22 @@ def test_the_best_remedy_is_that_of_the_photos_it_is_the_main_cause_of(found):
     assert (off.broken, off.change_of_all) == (3, pytest.approx(-8 / 3))
     assert wire.remedy.name == "weak"
     assert (wire.remedy.photos, wire.remedy.of) == (0, 0)  # a small miss, but no gross one
+    assert (off.misses, wire.remedy.misses) == (1, 0)  # b is one only with the other
+
+
+def test_what_was_tried_on_one_photo_alone_is_no_remedy_of_a_cause(found):
+    pair = replace(found[0].remedies[0], name="off and weak", change=-19.0, a_err=4.0)
+    alone = replace(found[0], remedies=(*found[0].remedies, pair))
+    assert by_cause([alone, *found[1:]])[0].remedy.name == "off"
+    assert "off and weak" not in over_all([alone, *found[1:]])
+    assert by_cause([alone])[0].remedy.name == "off and weak"
+
+
+def test_the_photos_of_a_cause_are_named_the_worst_first(found):
+    cloud, _wire = by_cause(found)
+    assert cloud.names == ("a",)
+    again = replace(found[0], name="d", diagnosis=Diagnosis((WIRE, WIRE), 4.0))
+    assert by_cause([found[1], again])[0].names == ("d", "b")
 
 
 def test_what_helps_nobody_is_no_remedy():
