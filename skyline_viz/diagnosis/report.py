@@ -116,7 +116,7 @@ def in_full(one: Diagnosed) -> str:
         lines += [
             f"\ncolumns {first} to {last}: {segment.title}{also}",
             f"  off by {segment.mean_error:.1f} px in the mean, {segment.worst_error:.0f} at worst",
-            f"  {segment.evidence}",
+            *(f"  {found}" for found in segment.findings),
         ]
         for trial in segment.trials:
             what = " and ".join(trial.changes)

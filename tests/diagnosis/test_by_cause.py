@@ -23,7 +23,7 @@ def segment(cause, error, terms=(), place=None, first=0):
         terms=terms,
         place=place,
         begins=first,
-        evidence="It is so.",
+        findings=("It is so.",),
         trials=(),
         margin=1.0,
         path_cost={},
