@@ -88,14 +88,12 @@ def by_cause(found: Sequence[Diagnosed]) -> list[CauseSum]:
 
 
 def over_all(found: Sequence[Diagnosed]) -> Mapping[str, list[Remedy]]:
-    """What each setting that was tried on all photos does to each of them, by its name.
-
-    Pairs of settings are those that helped one photo most, and are tried on it alone.
-    """
+    """What each single setting that was tried on all photos does to each of them, by its name."""
     tried: dict[str, list[Remedy]] = {}
     for one in found:
         for remedy in one.remedies:
-            tried.setdefault(remedy.name, []).append(remedy)
+            if not remedy.pair:
+                tried.setdefault(remedy.name, []).append(remedy)
     return {name: done for name, done in tried.items() if len(done) == len(found)}
 
 

@@ -91,7 +91,8 @@ def _cost(detection: FilterDetection, edges: Bool) -> F32:
     tensor = tensor_at(detection.photo, rows[new], columns[new])
     bank = detection.bank
     bins = bank.bins.of(tensor)
-    scores, strength = detection.scores[known], detection.strength[known]
+    scores, strength = np.empty((2, len(rows)), np.float32)
+    scores[~new], strength[~new] = detection.scores[known[~new]], detection.strength[known[~new]]
     grey = to_grey(detection.photo)
     scores[new] = score_at(grey, rows[new], columns[new], bins, bank.filters)
     strength[new] = tensor.strength

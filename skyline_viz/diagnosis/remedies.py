@@ -46,6 +46,9 @@ class Remedy:
     gross_miss: bool
     """Whether the photo is a gross miss then."""
 
+    pair: bool = False
+    """Whether two settings were tried at once: those that helped this photo most."""
+
 
 def try_remedies(detection: Detection, truth: Skyline, found: Diagnosis) -> tuple[Remedy, ...]:
     """Detect with other settings, and count segments that are right then, or wrong only then.
@@ -88,7 +91,8 @@ def _tried(
         yield remedy, line
     for name, changed in pairs_to_try(config, single, changes).items():
         line = detection.again(changed).skyline
-        yield _remedy(case, runs, name, flags(config, changed), line), line
+        remedy = _remedy(case, runs, name, flags(config, changed), line)
+        yield replace(remedy, pair=True), line
     detector = detection.detector
     if config.sky_weight and detector.sky == SkyModel.small():
         line = replace(detector, sky=SkyModel.large()).again(detection).skyline

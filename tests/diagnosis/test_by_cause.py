@@ -74,12 +74,14 @@ def test_the_best_remedy_is_that_of_the_photos_it_is_the_main_cause_of(found):
     assert (off.misses, wire.remedy.misses) == (1, 0)  # b is one only with the other
 
 
-def test_what_was_tried_on_one_photo_alone_is_no_remedy_of_a_cause(found):
-    pair = replace(found[0].remedies[0], name="off and weak", change=-19.0, a_err=4.0)
-    alone = replace(found[0], remedies=(*found[0].remedies, pair))
-    assert by_cause([alone, *found[1:]])[0].remedy.name == "off"
-    assert "off and weak" not in over_all([alone, *found[1:]])
-    assert by_cause([alone])[0].remedy.name == "off and weak"
+def test_pairs_and_what_was_tried_on_some_photos_only_are_no_remedy_of_a_cause(found):
+    more = replace(found[0].remedies[0], name="off and weak", change=-19.0, a_err=4.0)
+    some = replace(found[0], remedies=(*found[0].remedies, more))
+    assert by_cause([some, *found[1:]])[0].remedy.name == "off"
+    assert "off and weak" not in over_all([some, *found[1:]])
+    assert by_cause([some])[0].remedy.name == "off and weak"
+    paired = replace(found[0], remedies=(*found[0].remedies, replace(more, pair=True)))
+    assert by_cause([paired])[0].remedy.name == "off"
 
 
 def test_the_photos_of_a_cause_are_named_the_worst_first(found):

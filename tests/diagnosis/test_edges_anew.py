@@ -1,5 +1,7 @@
 """Edges found anew around path and truth: where, which, and what comes back with them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.diagnosis.edges_anew import FACTORS, _band, _edges, cost_anew
 from skyline_viz.edges import find_edges
 from skyline_viz.methods.gradient import GradientCost
+from skyline_viz.skyline import Skyline
 from testing.detections import WITHOUT_SKY
 
 
@@ -19,7 +22,7 @@ def faint():
     photo[140:] = 60
     detection = WITHOUT_SKY.detect(photo)
     assert (detection.skyline.rows == 140).all()
-    truth = type(detection.skyline)(rows=np.full(300, 80))
+    truth = Skyline(rows=np.full(300, 80))
     return Case(detection, truth, 4.0)
 
 
@@ -56,6 +59,18 @@ def test_costs_are_those_of_a_detection_with_such_edges(faint):
 def test_where_no_edge_changes_nothing_is_searched(faint):
     right = Case(faint.detection, faint.detection.skyline, 4.0)
     assert cost_anew(right, 0, 299, 0.5) is None
+
+
+def test_a_photo_without_an_edge_gets_its_first_ones():
+    photo = np.full((120, 200, 3), 200, np.uint8)
+    photo[80:] = 180
+    config = WITHOUT_SKY.config.with_settings({"fit_thresholds": False})
+    detection = replace(WITHOUT_SKY, config=config).detect(photo)
+    assert not detection.edges.any()
+    truth = Skyline(rows=np.full(200, 80))
+    (segment,) = diagnose(detection, truth).segments
+    anew = {one.thresholds: one.repaired for one in segment.trials if one.thresholds != 1}
+    assert anew == {0.25: 1.0}  # with half of them there is still none
 
 
 def test_methods_without_thresholds_are_not_asked(faint):
