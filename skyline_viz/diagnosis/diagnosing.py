@@ -277,8 +277,9 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit) -> Segment:
         proof = trials.proof(terms, contributing)
         share = proof.repaired if proof else 0.0
         said = [costs, evidence.terms_equal(proof)]
-    if cause == "cheaper path" or "missed edge" in (cause, *contributing):
-        said.append(evidence.found_anew(trials.anew()))
+    of_edges = cause == "cheaper path" or "missed edge" in (cause, *contributing)
+    if of_edges and (anew := trials.anew()):
+        said.append(evidence.found_anew(anew))
     there = None if cause == "truth doubtful" else place_of(case, trials.by(terms), *trials.reach)
     errors = case.errors[run[0] : run[1] + 1]
     return Segment(

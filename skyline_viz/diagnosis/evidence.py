@@ -75,9 +75,14 @@ def terms_equal(proof: Trial | None) -> str:
     )
 
 
-def found_anew(trial: Trial | None) -> str:
-    """What came back with edges found anew around both lines; None: nothing did."""
-    if trial is None:
+def found_anew(trials: Sequence[Trial]) -> str:
+    """What came back with edges found anew around both lines.
+
+    Args:
+        trials: At least one.
+    """
+    trial = max(trials, key=lambda one: one.repaired)
+    if not trial.repaired:
         return "No other Canny thresholds around both lines bring anything back."
     words = FACTORS[trial.thresholds]
     return (

@@ -83,11 +83,8 @@ class Trials:
                 kept = rest
         return tuple(kept)
 
-    def anew(self) -> Trial | None:
-        """Find edges anew around both lines; return the trial that brings most back.
-
-        None where that brings nothing back, or other thresholds change no edge.
-        """
+    def anew(self) -> list[Trial]:
+        """Find edges anew around both lines; return the trials, none where no edge changes."""
         made = []
         for factor in FACTORS:
             costs = cost_anew(self.case, *self.reach, factor)
@@ -98,8 +95,7 @@ class Trials:
             columns = self.reach[1] - self.reach[0] + 1
             made.append(Trial((), columns, share, thresholds=factor))
         self.made += made
-        best = max(made, key=lambda one: one.repaired, default=None)
-        return best if best and best.repaired else None
+        return made
 
     def proof(self, terms: tuple[str, ...], changes: Sequence[Cause]) -> Trial | None:
         """The trial that terms and changes stand on; None where no terms are named."""

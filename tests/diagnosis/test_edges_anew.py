@@ -76,6 +76,8 @@ def test_a_photo_without_an_edge_gets_its_first_ones():
 def test_methods_without_thresholds_are_not_asked(faint):
     found = GradientCost().detect(faint.detection.photo)
     assert cost_anew(Case(found, faint.truth, 4.0), 0, 299, 0.5) is None
+    for segment in diagnose(found, faint.truth).segments:
+        assert "Canny" not in segment.evidence
 
 
 def test_what_comes_back_is_a_trial_that_speaks_against_no_cause(hazy):
