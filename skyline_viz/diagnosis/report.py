@@ -91,7 +91,7 @@ def _helping(most: Mended | None) -> list[str]:
 
 
 def write_picture(path: str | os.PathLike[str], name: str, found: Sequence[Diagnosed]) -> None:
-    """Draw what each cause costs, and what its best remedy leaves of that, see `cause_bars`."""
+    """Draw what each cause costs, with what its best remedy changes, see `cause_bars`."""
     from skyline_viz.evaluation.cause_bars import CauseBar, write_cause_bars  # noqa: PLC0415  # half a second
 
     bars = []
