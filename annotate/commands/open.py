@@ -23,6 +23,7 @@ from skyline_viz.command_line.messages import GOOD, UsageError, counted, say, te
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, say_too_large
+from skyline_viz.diagnosis.causes import DOUBTFUL, Cause, Place, Preferring
 from skyline_viz.system.endings import told_by_signals
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
@@ -57,6 +58,10 @@ class Open:
     from_diagnosis: Annotated[Path | None, tyro.conf.arg(metavar="FILE")] = None
     """diagnosis.json of skyline-viz diagnose: only photos whose truth is doubtful, where it is."""
 
+    cause: Annotated[Cause | Place | Preferring, tyro.conf.arg(metavar="CAUSE")] = DOUBTFUL
+    """With --from-diagnosis: photos with another cause, place or term of the cost, as skyline-viz
+    gallery --cause takes it."""
+
     methods: MethodOptions = field(default_factory=Methods)
     """Another method to propose with than ours."""
 
@@ -80,6 +85,8 @@ class Open:
 
     def _check(self) -> None:
         check_folder(self.folder)
+        if self.cause != DOUBTFUL and not self.from_diagnosis:
+            raise UsageError("--cause is that of a diagnosis; --from-diagnosis FILE names it.")
         if not 0 <= self.blind <= 1:
             raise UsageError(f"--blind is a share from 0 to 1, not {self.blind}.")
         if not 1 <= self.pass_number <= MOST_PASSES:
@@ -104,12 +111,16 @@ class Open:
         who = Assignment(
             whoever(self.annotator), self.pass_number, self.order, self.blind, self.seed
         )
-        doubts = read_doubts(self.from_diagnosis) if self.from_diagnosis else None
+        doubts = None
+        if self.from_diagnosis:
+            doubts = read_doubts(self.from_diagnosis, self.cause)
         detector: Method
         detector = self.methods.one()
         bench = Workbench(Store(self.folder), detector, who, doubts)
         if doubts is not None and not bench.photos:
-            raise UsageError(f"{self.from_diagnosis} doubts no truth of a photo in {self.folder}.")
+            raise UsageError(
+                f"{self.from_diagnosis} has the cause {self.cause} of no photo in {self.folder}."
+            )
         if not bench.photos:
             raise UsageError(" ".join([f"{self.folder} holds no photograph.", *self._unread()]))
         for problem in bench.store.problems:

@@ -33,7 +33,7 @@ class Diagnose(OnTruth):
     """Do not try what would help most: other settings, on all photos."""
 
     out: OptionalFolder = None
-    """Folder for segments.csv and diagnosis.json; made where it is missing."""
+    """Folder for segments.csv, diagnosis.json and causes.png; made where it is missing."""
 
     report: ReportFile = None
     """Write a report to be mailed: one HTML file with photos, causes, remedies and stages."""
@@ -96,4 +96,5 @@ class Diagnose(OnTruth):
         if self.out:
             diagnosis.write_csv(self.out / "segments.csv", found)
             diagnosis.write_json(self.out / "diagnosis.json", name, found)
-            tell(f"segments.csv and diagnosis.json in {self.out}")
+            diagnosis.write_picture(self.out / "causes.png", name, found)
+            tell(f"segments.csv, diagnosis.json and causes.png in {self.out}")

@@ -12,3 +12,4 @@ from .report import table as table
 from .report import write_csv as write_csv
 from .report import write_json as write_json
 from .report import write_photo as write_photo
+from .report import write_picture as write_picture

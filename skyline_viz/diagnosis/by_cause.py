@@ -26,6 +26,9 @@ class Mended:
     of: int
     """How many these are."""
 
+    misses: int
+    """Photos of all causes that are gross misses only with it."""
+
     change: float
     """Change of the mean A_err of the photos of the cause, in pixels."""
 
@@ -55,6 +58,9 @@ class CauseSum:
     photos: int
     """Photos with such a segment."""
 
+    names: tuple[str, ...]
+    """Their names, that which has most of the error first."""
+
     segments: int
     """How many there are."""
 
@@ -82,23 +88,28 @@ def by_cause(found: Sequence[Diagnosed]) -> list[CauseSum]:
 
 
 def over_all(found: Sequence[Diagnosed]) -> Mapping[str, list[Remedy]]:
-    """What each setting does to each photo, by its name."""
+    """What each single setting that was tried on all photos does to each of them, by its name."""
     tried: dict[str, list[Remedy]] = {}
     for one in found:
         for remedy in one.remedies:
-            tried.setdefault(remedy.name, []).append(remedy)
-    return tried
+            if not remedy.pair:
+                tried.setdefault(remedy.name, []).append(remedy)
+    return {name: done for name, done in tried.items() if len(done) == len(found)}
 
 
 def _sum(members: Sequence[tuple[Diagnosed, Segment]], found: Sequence[Diagnosed]) -> CauseSum:
     _, first = members[0]
     photos = {one.name: one for one, _ in members}
+    errors = dict.fromkeys(photos, 0.0)
+    for one, segment in members:
+        errors[one.name] += segment.total_error
     return CauseSum(
         title=first.title,
         cause=first.cause,
         term=first.terms[0] if first.terms else "",
         place=first.place,
         photos=len(photos),
+        names=tuple(sorted(photos, key=lambda name: -errors[name])),
         segments=len(members),
         columns=sum(segment.length for _, segment in members),
         error=sum(segment.total_error for _, segment in members),
@@ -113,19 +124,22 @@ def _main(one: Diagnosed) -> str:
 
 
 def _best(photos: Sequence[Diagnosed], found: Sequence[Diagnosed]) -> Mended | None:
-    changes = {name: _mean(tried) for name, tried in over_all(photos).items()}
+    everywhere = over_all(found)
+    of_these = over_all(photos)
+    changes = {name: _mean(of_these[name]) for name in everywhere if name in of_these}
     name = min(changes, key=lambda one: changes[one], default="")
     if not name or changes[name] >= 0:
         return None
     gross = [one for one in photos if one.gross_miss]
-    everywhere = over_all(found)[name]
+    others = zip(found, everywhere[name], strict=True)
     return Mended(
         name=name,
         photos=sum(not remedy.gross_miss for remedy in over_all(gross).get(name, ())),
         of=len(gross),
+        misses=sum(remedy.gross_miss and not one.gross_miss for one, remedy in others),
         change=changes[name],
-        broken=sum(remedy.broken for remedy in everywhere),
-        change_of_all=_mean(everywhere),
+        broken=sum(remedy.broken for remedy in everywhere[name]),
+        change_of_all=_mean(everywhere[name]),
     )
 
 

@@ -11,6 +11,9 @@ Cause: TypeAlias = Literal[
 
 CAUSES: tuple[Cause, ...] = get_args(Cause)
 
+DOUBTFUL: Cause = "truth doubtful"
+"""The cause of segments whose annotation is to be checked."""
+
 TERMS: Mapping[Cause, str] = MappingProxyType(
     {
         "missed edge": "no edge",

@@ -215,7 +215,12 @@ class Case:
         return start, stop if stop >= 0 else self.truth.width - 1
 
     def search(
-        self, changes: Iterable[Change], first: int, last: int, spared: F64 | None = None
+        self,
+        changes: Iterable[Change],
+        first: int,
+        last: int,
+        spared: F64 | None = None,
+        costs: F32 | None = None,
     ) -> tuple[int, Int]:
         """The path with the truth's columns from `first` to `last` made right in some respects.
 
@@ -224,13 +229,15 @@ class Case:
             first: First column in which it is.
             last: Last one.
             spared: ``(W,)`` what the truth need not pay in each column; nothing unless given.
+            costs: ``(H, W)`` nodal costs to search in; those of the detection unless given.
 
         Returns:
             First column of the part that was searched again, and the rows from there on.
         """
         start, stop = self.window(first, last)
         detection = self.detection
-        cost = detection.cost[:, start : stop + 1].T.astype(np.float64)
+        given = detection.cost if costs is None else costs
+        cost = given[:, start : stop + 1].T.astype(np.float64)
         reach = np.full(stop - start, detection.delta, np.int32)
         for change in changes:
             columns = np.flatnonzero(self.columns_of(change, first, last))

@@ -76,8 +76,9 @@ class Segment:
     begins: int
     """First column that shows it; the first one of the segment where there is none."""
 
-    evidence: str
-    """What was found, in a few sentences."""
+    findings: tuple[str, ...]
+    """What was found: why the truth is dearer, what proves it, where it begins to; each in a
+    sentence or two."""
 
     trials: tuple[Trial, ...]
     """All counterfactuals that were tried."""
@@ -101,6 +102,11 @@ class Segment:
         """Cause, term and place in a few words."""
         by = f" by {self.terms[0]}" if self.cause == "cheaper path" and self.terms else ""
         return f"{self.cause}{by}{f', {self.place}' if self.place else ''}"
+
+    @property
+    def evidence(self) -> str:
+        """All that was found, in a few sentences."""
+        return " ".join(self.findings)
 
     @property
     def length(self) -> int:
@@ -165,21 +171,30 @@ class Diagnosis:
 
     def document(self) -> dict[str, Any]:
         """Everything but the lines, for JSON."""
-        kept = [one.name for one in fields(Segment) if one.name not in ("line", "trials")]
+        left_out = ("line", "trials", "findings")
+        kept = [one.name for one in fields(Segment) if one.name not in left_out]
         return {
             "tolerance": self.tolerance,
             "segments": [
                 {
                     **{name: getattr(segment, name) for name in kept},
+                    "title": segment.title,
+                    "evidence": segment.evidence,
                     "trials": [vars(trial) for trial in segment.trials],
                 }
                 for segment in self.segments
             ],
         }
 
-    def markdown(self, name: str = "") -> str:
-        """A report for people, the segment with the largest total error first."""
+    def markdown(self, name: str = "", mend: Sequence[str] = ()) -> str:
+        """A report for people, the segment with the largest total error first.
+
+        Args:
+            name: Name of the photo, for the heading.
+            mend: Lines in Markdown about what mends it, which come first.
+        """
         lines = [f"**{named_in_markdown(name)}**  "] if name else []
+        lines += [*mend, ""] if mend else []
         if self.right:
             return "\n".join([*lines, self.said_right])
         for one in self.by_error:
@@ -188,7 +203,8 @@ class Diagnosis:
             lines += [
                 f"**{one.title}{also}**, columns {first} to {last}  ",
                 f"off by {one.mean_error:.1f} px in the mean, {one.worst_error:.0f} at worst  ",
-                f"{one.evidence}",
+                "",
+                *(f"- {found}" for found in one.findings),
                 "",
             ]
         return "\n".join(lines)
@@ -241,7 +257,7 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit) -> Segment:
     contributing: tuple[Cause, ...] = ()
     terms: tuple[str, ...] = ()
     if doubt := doubt_of(case, *run):
-        cause, share, said = "truth doubtful", doubt.repaired, doubt.evidence
+        cause, share, said = "truth doubtful", doubt.repaired, [doubt.evidence]
         trials.made.append(Trial((cause,), doubt.columns, share))
     elif chosen := _chosen(usable, shares, trials):
         main = max(chosen, key=lambda one: _effect(case, one, *trials.reach))
@@ -250,7 +266,7 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit) -> Segment:
         trials.line = trials.lines[chosen]
         share = case.repaired(*trials.line, *run)
         found = evidence.changes_found(case, chosen, run, trials.reach)
-        said = f"{found} {evidence.changes_helped(share)}"
+        said = [found, evidence.changes_helped(share)]
     else:
         cause = "cheaper path"
         costs = evidence.cheaper_by(paid, due, trials.against(cause))
@@ -260,7 +276,10 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit) -> Segment:
             contributing = tuple(usable) if terms else ()
         proof = trials.proof(terms, contributing)
         share = proof.repaired if proof else 0.0
-        said = f"{costs} {evidence.terms_equal(proof)}"
+        said = [costs, evidence.terms_equal(proof)]
+    of_edges = cause == "cheaper path" or "missed edge" in (cause, *contributing)
+    if of_edges and (anew := trials.anew()):
+        said.append(evidence.found_anew(anew))
     there = None if cause == "truth doubtful" else place_of(case, trials.by(terms), *trials.reach)
     errors = case.errors[run[0] : run[1] + 1]
     return Segment(
@@ -273,7 +292,7 @@ def _explain(case: Case, run: tuple[int, int], path: CostSplit) -> Segment:
         terms=terms,
         place=there.place if there else None,
         begins=there.begins if there else run[0],
-        evidence=f"{said} {there.evidence}" if there else said,
+        findings=(*said, there.evidence) if there else tuple(said),
         trials=tuple(trials.made),
         margin=max(share - trials.against(cause), 0.0),
         path_cost=paid,

@@ -9,6 +9,7 @@ import numpy as np
 from skyline_viz.arrays import Int
 from skyline_viz.detection import Detection
 from skyline_viz.diagnosis.counterfactual import Case, Change
+from skyline_viz.diagnosis.edges_anew import FACTORS
 from skyline_viz.diagnosis.trials import Trial
 
 
@@ -71,6 +72,22 @@ def terms_equal(proof: Trial | None) -> str:
     return (
         f"With the truth paying no more for {' and '.join(proof.terms)} than {lines}{also} "
         f"{proof.repaired:.0%} of the wrong columns come back."
+    )
+
+
+def found_anew(trials: Sequence[Trial]) -> str:
+    """What came back with edges found anew around both lines.
+
+    Args:
+        trials: At least one.
+    """
+    trial = max(trials, key=lambda one: one.repaired)
+    if not trial.repaired:
+        return "No other Canny thresholds around both lines bring anything back."
+    words = FACTORS[trial.thresholds]
+    return (
+        f"With edges found anew around both lines, with {words} Canny thresholds, "
+        f"{trial.repaired:.0%} come back."
     )
 
 

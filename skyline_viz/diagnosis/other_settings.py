@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, replace
+from itertools import combinations
 from typing import Any
 
 from skyline_viz.config import DetectorConfig
 from skyline_viz.detection import Detection
 from skyline_viz.diagnosis.sweep import most_of
+
+PAIRED = 4
+"""So many of the settings that helped most alone are tried in pairs."""
 
 
 def settings_to_try(found: Detection) -> dict[str, DetectorConfig]:
@@ -40,6 +44,25 @@ def settings_to_try(found: Detection) -> dict[str, DetectorConfig]:
     return named | presets
 
 
+def pairs_to_try(
+    config: DetectorConfig, single: Mapping[str, DetectorConfig], changes: Mapping[str, float]
+) -> dict[str, DetectorConfig]:
+    """Two settings at once, by what they are in words: pairs of those that helped most alone.
+
+    Args:
+        config: The settings as they are.
+        single: Those of `settings_to_try`.
+        changes: Change of A_err by each alone, in pixels.
+    """
+    helped = sorted((one for one in single if changes[one] < 0), key=lambda one: changes[one])
+    pairs: dict[str, DetectorConfig] = {}
+    for one, other in combinations(helped[:PAIRED], 2):
+        first, second = _differing(config, single[one]), _differing(config, single[other])
+        if not first.keys() & second.keys():
+            pairs[f"{one} and {other}"] = replace(config, **first, **second)
+    return pairs
+
+
 def flags(config: DetectorConfig, changed: DetectorConfig) -> str:
     """The flags that make other settings of some, to be added to a command line.
 
@@ -50,9 +73,16 @@ def flags(config: DetectorConfig, changed: DetectorConfig) -> str:
     for name, preset in DetectorConfig.presets().items():
         if changed == preset:
             return f"--preset {name}"
-    names = [one.name for one in fields(config)]
-    differ = [name for name in names if getattr(config, name) != getattr(changed, name)]
-    return " ".join(_flag(name, getattr(changed, name)) for name in differ)
+    return " ".join(_flag(name, value) for name, value in _differing(config, changed).items())
+
+
+def _differing(config: DetectorConfig, changed: DetectorConfig) -> dict[str, Any]:
+    """The fields of other settings that differ from some."""
+    return {
+        one.name: getattr(changed, one.name)
+        for one in fields(config)
+        if getattr(config, one.name) != getattr(changed, one.name)
+    }
 
 
 def _flag(name: str, value: float | str) -> str:

@@ -8,7 +8,7 @@ frame             the path is level, near the rim, and beyond it the photo has o
                   not the sky's
 wire              above the truth, the photo is alike on both sides of the path, which is thin
 cloud above       above the truth, anything else
-snow              below the truth, which divides blue sky from something white
+snow              below the truth, at which something white begins that is lighter than the sky
 foreground ridge  below the truth, anything else
 ================  ================================================================================
 
@@ -40,8 +40,9 @@ between rows 2 px apart at 519 rows, where it is steepest."""
 ALIKE = 0.4
 """Contrast across a wire, as a share of that of the wire itself, at the most."""
 
-BLUE = 12.0
-"""Grey levels by which a blue sky is more blue than red, at least."""
+SIDES = ((3, 5), (6, 10))
+"""How far from the path its two sides are compared, in pixels at 519 rows: of thin wires, and of
+wide ones."""
 
 WHITE, COLOURLESS = 140.0, 40.0
 """Grey level of snow in its darkest channel, at least, and by how much its channels differ."""
@@ -142,19 +143,24 @@ class _Shown:
         return contrast
 
     def thin(self) -> Bool:
-        """``(k,)`` whether the photo is alike on both sides of the path, which is another."""
-        over, under = self.beside(self.path, -10, -6), self.beside(self.path, 6, 10)
-        middle = (over + under) / 2
-        on = [np.abs(self.beside(self.path, off, off) - middle).max(axis=1) for off in range(-3, 5)]
-        thin: Bool = np.abs(over - under).max(axis=1) <= ALIKE * np.max(on, axis=0)
+        """``(k,)`` whether the photo is alike on both sides of the path, which is another.
+
+        Near it or farther off: clouds change within the width of a wide wire.
+        """
+        thin: Bool = np.zeros(len(self.columns), np.bool_)
+        on = [self.beside(self.path, off, off) for off in range(-3, 5)]
+        for near, far in SIDES:
+            over, under = self.beside(self.path, -far, -near), self.beside(self.path, near, far)
+            middle = (over + under) / 2
+            wire = np.max([np.abs(one - middle).max(axis=1) for one in on], axis=0)
+            thin |= np.abs(over - under).max(axis=1) <= ALIKE * wire
         return thin
 
     def snowy(self) -> Bool:
-        """``(k,)`` whether the truth divides blue sky from something white."""
-        blue = self.over[:, 2] - self.over[:, 0] >= BLUE
+        """``(k,)`` whether something white and lighter than the sky begins at the truth."""
         spread = self.under.max(axis=1) - self.under.min(axis=1)
         lighter = self.under[:, 0] >= self.over[:, 0]  # a pale sky is white, too, but for its red
-        snowy: Bool = blue & lighter & (self.under.min(axis=1) >= WHITE) & (spread <= COLOURLESS)
+        snowy: Bool = lighter & (self.under.min(axis=1) >= WHITE) & (spread <= COLOURLESS)
         return snowy
 
     def framed(self) -> Bool:
@@ -195,7 +201,7 @@ _AT: dict[Place, str] = {
     "cloud above": "at a cloud above",
     "haze": "in haze",
     "wire": "at a wire",
-    "snow": "at snow under a blue sky",
+    "snow": "at snow",
     "frame": "at a frame",
     "foreground ridge": "at a foreground ridge",
 }
@@ -204,7 +210,7 @@ _MEASURED: dict[Place, str] = {
     "cloud above": "the path divides two colours above the truth",
     "haze": f"the contrast across the truth is at most {HAZY:.0f} grey levels",
     "wire": "the photo is alike on both sides of the path",
-    "snow": "the truth divides blue from white",
+    "snow": "something white and lighter than the sky begins at the truth",
     "frame": "the path is level and has one colour beyond it",
     "foreground ridge": "the path runs below a truth with contrast",
 }

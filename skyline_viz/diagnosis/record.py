@@ -80,6 +80,7 @@ def _made(values: dict[str, Any]) -> Segment:
             "columns": (first_column, last_column),
             "contributing": tuple(values["contributing"]),
             "terms": tuple(values["terms"]),
+            "findings": tuple(values["findings"]),
             "trials": tuple(Trial(**trial) for trial in trials),
             "line": (first, np.array(rows, dtype)),
         }

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from skyline_viz.detection import Detection
+from skyline_viz.detection import Detection, FilterDetection
 from skyline_viz.diagnosis.counterfactual import REPAIRED, Case
 from skyline_viz.diagnosis.diagnosing import Diagnosis
-from skyline_viz.diagnosis.other_settings import flags, settings_to_try
+from skyline_viz.diagnosis.other_settings import flags, pairs_to_try, settings_to_try
 from skyline_viz.evaluation.metrics import column_errors, is_gross_miss, wrong_segments
+from skyline_viz.sky_model import SkyModel
 from skyline_viz.skyline import Skyline
+
+LARGER = "--sky large"
+"""The flag of the larger sky model, which is a remedy of detectors with the small one."""
 
 _GROWN = 1.5  # times its length from which on a segment is broken
 
@@ -42,29 +46,17 @@ class Remedy:
     gross_miss: bool
     """Whether the photo is a gross miss then."""
 
+    pair: bool = False
+    """Whether two settings were tried at once: those that helped this photo most."""
+
 
 def try_remedies(detection: Detection, truth: Skyline, found: Diagnosis) -> tuple[Remedy, ...]:
     """Detect with other settings, and count segments that are right then, or wrong only then.
 
+    Each setting is tried alone, then pairs of those that helped most, then the larger sky model.
     Nothing is tried on detections of methods that have other settings than ours.
     """
-    height, config = len(detection.edges), detection.config
-    case = Case(detection, truth, found.tolerance)
-    before = float(np.nanmean(case.errors))
-    runs = [segment.columns for segment in found.segments]
-    remedies = []
-    for name, changed in settings_to_try(detection).items():
-        assert config is not None  # or there are none to try
-        skyline = detection.again(changed).skyline
-        errors = column_errors(skyline, truth)
-        rows = skyline.rows.astype(np.int32)
-        repaired = sum(case.repaired(0, rows, *run) >= REPAIRED for run in runs)
-        broken = sum(_broken(run, runs) for run in wrong_segments(errors, height, found.tolerance))
-        after = float(np.nanmean(errors))
-        gross = is_gross_miss(after, height)
-        spelt = flags(config, changed)
-        remedies.append(Remedy(name, spelt, repaired, broken, after, after - before, gross))
-    return tuple(remedies)
+    return tuple(remedy for remedy, _ in _tried(detection, truth, found))
 
 
 def best(remedies: Sequence[Remedy]) -> Remedy | None:
@@ -77,10 +69,54 @@ def most_helpful(
     detection: Detection, truth: Skyline, found: Diagnosis
 ) -> tuple[Remedy, Skyline] | None:
     """The best remedy of a detection, and the line with it; None where nothing helps."""
-    remedy = best(try_remedies(detection, truth, found))
-    if remedy is None:
-        return None
-    return remedy, detection.again(settings_to_try(detection)[remedy.name]).skyline
+    tried = dict(_tried(detection, truth, found))
+    remedy = best([*tried])
+    return (remedy, tried[remedy]) if remedy else None
+
+
+def _tried(
+    detection: Detection, truth: Skyline, found: Diagnosis
+) -> Iterator[tuple[Remedy, Skyline]]:
+    """Every remedy, and the line with it."""
+    if not isinstance(detection, FilterDetection):
+        return
+    case, config = Case(detection, truth, found.tolerance), detection.config
+    runs = [segment.columns for segment in found.segments]
+    changes: dict[str, float] = {}
+    single = settings_to_try(detection)
+    for name, changed in single.items():
+        line = detection.again(changed).skyline
+        remedy = _remedy(case, runs, name, flags(config, changed), line)
+        changes[name] = remedy.change
+        yield remedy, line
+    for name, changed in pairs_to_try(config, single, changes).items():
+        line = detection.again(changed).skyline
+        remedy = _remedy(case, runs, name, flags(config, changed), line)
+        yield replace(remedy, pair=True), line
+    detector = detection.detector
+    if config.sky_weight and detector.sky == SkyModel.small():
+        line = replace(detector, sky=SkyModel.large()).again(detection).skyline
+        yield _remedy(case, runs, f"the larger sky model ({LARGER})", LARGER, line), line
+
+
+def _remedy(
+    case: Case, runs: Sequence[tuple[int, int]], name: str, spelt: str, line: Skyline
+) -> Remedy:
+    """What a line does that another setting has found."""
+    height = len(case.detection.edges)
+    errors = column_errors(line, case.truth)
+    rows = line.rows.astype(np.int32)
+    wrong = wrong_segments(errors, height, case.tolerance)
+    after = float(np.nanmean(errors))
+    return Remedy(
+        name=name,
+        flags=spelt,
+        repaired=sum(case.repaired(0, rows, *run) >= REPAIRED for run in runs),
+        broken=sum(_broken(run, runs) for run in wrong),
+        a_err=after,
+        change=after - float(np.nanmean(case.errors)),
+        gross_miss=is_gross_miss(after, height),
+    )
 
 
 def _broken(new: tuple[int, int], runs: Sequence[tuple[int, int]]) -> bool:

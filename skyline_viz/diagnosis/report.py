@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 from rich.table import Table
 
-from skyline_viz.diagnosis.by_cause import by_cause, over_all
+from skyline_viz.diagnosis.by_cause import Mended, by_cause, over_all
+from skyline_viz.diagnosis.edges_anew import FACTORS
 from skyline_viz.diagnosis.record import Diagnosed
 from skyline_viz.diagnosis.remedies import best
 from skyline_viz.evaluation.terminal import drawn
@@ -23,6 +24,9 @@ _HEADER = (
     "photo", "first", "last", "cause", "contributing", "mean_error", "worst_error",
     "total_error", "margin", "evidence", "terms", "place", "begins",
 )  # fmt: skip
+
+SHOWN = 5
+"""So many remedies are told of one photo."""
 
 
 def table(found: Sequence[Diagnosed]) -> str:
@@ -64,15 +68,40 @@ def remedies_table(found: Sequence[Diagnosed]) -> str:
     lines = ["What would help, tried on all photos", _drawn(head, rows)]
     if not any(good for _, good, _, _ in sums):
         lines.append("None of these helps: no wrong segment is repaired.")
-    causes = [(one.title, one.remedy) for one in by_cause(found) if one.remedy]
-    if causes:
-        head = ["main cause of a photo", "best remedy", "A_err of these", "of all", "breaks"]
-        rows = []
-        for title, most in causes:
-            changes = f"{most.change:+.2f} px", f"{most.change_of_all:+.2f} px"
-            rows.append([title, most.name, *changes, str(most.broken)])
-        lines += ["What would help most of each cause", _drawn(head, rows)]
+    head = ["cause", "photos", "A_err", "best remedy", "of these", "of all", "breaks", "misses"]
+    rows = [
+        [one.title, str(one.photos), f"{one.a_err:.2f} px", *_helping(one.remedy)]
+        for one in by_cause(found)
+    ]
+    lines += [
+        "What would help most of each cause: change of the A_err of the photos whose main cause it "
+        "is,",
+        "and of all photos; segments that are broken by it, and gross misses that are made, in all",
+        _drawn(head, rows),
+    ]
     return "\n".join(lines)
+
+
+def _helping(most: Mended | None) -> list[str]:
+    """What the table of causes says of a remedy."""
+    if most is None:
+        return ["none helps", "", "", "", ""]
+    changes = f"{most.change:+.2f} px", f"{most.change_of_all:+.2f} px"
+    return [most.name, *changes, str(most.broken), str(most.misses)]
+
+
+def write_picture(path: str | os.PathLike[str], name: str, found: Sequence[Diagnosed]) -> None:
+    """Draw what each cause costs, with what its best remedy changes, see `cause_bars`."""
+    from skyline_viz.evaluation.cause_bars import CauseBar, write_cause_bars  # noqa: PLC0415  # half a second
+
+    bars = []
+    for one in by_cause(found):
+        said, most = "no setting helps", one.remedy
+        if most:
+            said = f"{most.name}: {most.change:+.2f} px on these, {most.change_of_all:+.2f} on all"
+            said += f", breaks {most.broken}"
+        bars.append(CauseBar(one.title, one.photos, one.a_err, said))
+    write_cause_bars(path, bars, name)
 
 
 def in_full(one: Diagnosed) -> str:
@@ -87,10 +116,12 @@ def in_full(one: Diagnosed) -> str:
         lines += [
             f"\ncolumns {first} to {last}: {segment.title}{also}",
             f"  off by {segment.mean_error:.1f} px in the mean, {segment.worst_error:.0f} at worst",
-            f"  {segment.evidence}",
+            *(f"  {found}" for found in segment.findings),
         ]
         for trial in segment.trials:
             what = " and ".join(trial.changes)
+            if trial.thresholds != 1:
+                what = f"edges found anew with {FACTORS[trial.thresholds]} Canny thresholds"
             if trial.terms:
                 which = "1 line" if trial.lines == 1 else f"{trial.lines} lines"
                 what += f" ({' and '.join(trial.terms)} as cheap as of {which})"
@@ -100,9 +131,25 @@ def in_full(one: Diagnosed) -> str:
             for name, paid in segment.path_cost.items()
         ]
         lines.append(f"  the truth costs more than the path by: {', '.join(stages)}")
-    if helps := best(one.remedies):
-        lines.append(f"\nA_err {helps.a_err:.2f} px with {helps.name}: add {helps.flags}")
-    return "\n".join(lines)
+    return "\n".join([*lines, *_remedies_of(one)])
+
+
+def _remedies_of(one: Diagnosed) -> list[str]:
+    """The remedies that help a photo most, and how to get the best one."""
+    helps = best(one.remedies)
+    if helps is None:
+        return ["\nNo other setting that was tried helps."] if one.remedies else []
+    most = sorted(one.remedies, key=lambda remedy: remedy.a_err)[:SHOWN]
+    rows = [
+        [remedy.name, f"{remedy.a_err:.2f} px", str(remedy.repaired), str(remedy.broken)]
+        for remedy in most
+        if remedy.change < 0
+    ]
+    return [
+        "\nWhat would help most",
+        _drawn(["setting", "A_err", "repairs", "breaks"], rows),
+        f"For the best: add {helps.flags}",
+    ]
 
 
 def write_csv(path: str | os.PathLike[str], found: Iterable[Diagnosed]) -> None:
@@ -160,7 +207,8 @@ def write_photo(folder: str | os.PathLike[str], dataset: str, one: Diagnosed) ->
 def _drawn(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     shown = Table(box=None, pad_edge=False, header_style="bold")
     for number, title in enumerate(head):
-        shown.add_column(title, justify="right" if number else "left")
+        words = number == 0 or title == "best remedy"
+        shown.add_column(title, justify="left" if words else "right", no_wrap=not words)
     for row in rows:
         shown.add_row(*row)
     return drawn(shown, width=100)

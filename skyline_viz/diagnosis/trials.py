@@ -10,6 +10,7 @@ import numpy as np
 from skyline_viz.arrays import F64, Int
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.diagnosis.counterfactual import REPAIRED, Case, Change
+from skyline_viz.diagnosis.edges_anew import FACTORS, cost_anew
 
 _MOST_LINES = 8  # that are made up for until the truth is expected back,
 _MOST_SEARCHES = 64  # and as many plain searches at most that this may take as long as
@@ -34,6 +35,10 @@ class Trial:
 
     terms: tuple[str, ...] = ()
     """In which terms of the cost."""
+
+    thresholds: float = 1.0
+    """Factor of the Canny thresholds with which edges were found anew around both lines, see
+    `edges_anew`; 1 where none were."""
 
 
 class Trials:
@@ -78,6 +83,20 @@ class Trials:
                 kept = rest
         return tuple(kept)
 
+    def anew(self) -> list[Trial]:
+        """Find edges anew around both lines; return the trials, none where no edge changes."""
+        made = []
+        for factor in FACTORS:
+            costs = cost_anew(self.case, *self.reach, factor)
+            if costs is None:
+                continue
+            found = self.case.search((), *self.reach, costs=costs)
+            share = self.case.repaired(*found, *self.run)
+            columns = self.reach[1] - self.reach[0] + 1
+            made.append(Trial((), columns, share, thresholds=factor))
+        self.made += made
+        return made
+
     def proof(self, terms: tuple[str, ...], changes: Sequence[Cause]) -> Trial | None:
         """The trial that terms and changes stand on; None where no terms are named."""
         wanted = ("cheaper path", *changes)
@@ -90,8 +109,12 @@ class Trials:
         return costs
 
     def against(self, cause: Cause) -> float:
-        """The largest share that came back without a cause being made right."""
-        return max((one.repaired for one in self.made if cause not in one.changes), default=0.0)
+        """The largest share that came back without a cause being made right.
+
+        Edges found anew do not speak against any: they are no other cause.
+        """
+        others = (one for one in self.made if cause not in one.changes and one.thresholds == 1)
+        return max((one.repaired for one in others), default=0.0)
 
     def _equal(self, terms: Sequence[str], changes: Sequence[Change]) -> float:
         """Let the truth pay no more for some terms than the path does, in the sum.

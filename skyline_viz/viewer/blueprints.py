@@ -239,8 +239,8 @@ def _diagnosis_tab(contents: Contents) -> rrb.Container:
     marks = [f"{entities.SEGMENTS}/**", entities.TRUTH_MISSED, entities.TRUTH_STARVED]
     lines = _with_halos([entities.PATH, entities.TRUTH, entities.COUNTERFACTUAL])
     photo = _photo_view(
-        "Yellow: the path with its cause made right, or with other settings. On the truth, orange: "
-        "no edge; blue: starved",
+        "Yellow: the path with its cause made right; dashes: with other settings. Above the truth, "
+        "orange: no edge; blue: starved",
         [entities.PHOTO, *lines, *marks],
         _whole_photo(contents),
     )

@@ -24,7 +24,13 @@ from skyline_viz.viewer.documents import markdown_document
 _FRAME, _MISSED, _STARVED = (0xF5, 0xF5, 0xF5), (0xE6, 0x9F, 0x00), (0x56, 0xB4, 0xE9)
 _NAMED = 3  # segments whose causes are written on the photo, those with the largest total error
 _LEAST_FRAME = 6  # columns that the frame of a segment is wide at least
+_DASHES = 80  # and gaps that the line of a remedy has together
+_SHORT = 45  # letters of flags that are written on the photo
+_MARKED = 70  # the marks of the truth's pixels are this part of the height above it
 _BEYOND = 8  # columns beside a segment in which the counterfactual path is drawn
+
+DEARER = "What the truth pays more than the path in each column (below 0: less)"
+"""Title of the picture of what both pay."""
 
 
 def log_diagnosis(
@@ -49,13 +55,8 @@ def log_diagnosis(
         mended: The setting that helps most, and the line with it; None where none does, or nobody
             has tried.
     """
-    text = diagnosis.markdown(name)
-    if mended:
-        remedy, _ = mended
-        flags = named_in_markdown(remedy.flags)
-        text += f"\n**A_err {remedy.a_err:.2f} px** with {named_in_markdown(remedy.name)}.  \n"
-        text += f"To be added: `{flags}`" if flags == remedy.flags else f"To be added: {flags}"
-    recording.log(entities.DIAGNOSIS, markdown_document(text))
+    mend = _said(mended[0]) if mended else ()
+    recording.log(entities.DIAGNOSIS, markdown_document(diagnosis.markdown(name, mend)))
     if diagnosis.right:
         return
     case = Case(detection, truth, diagnosis.tolerance)
@@ -96,24 +97,42 @@ def log_diagnosis(
         recording.log(place, strips)
     _log_truth_pixels(recording, case)
     if mended:
-        remedy, line = mended
-        points = np.column_stack([np.arange(line.width) + 0.5, line.rows]).astype(np.float32)
-        label = f"{remedy.flags}: A_err {remedy.a_err:.2f} px"
-        mend = rr.LineStrips2D(
-            [points], colors=[ALTERNATIVE], radii=[-1.0], labels=[label], draw_order=43.0
-        )
-        recording.log(entities.REMEDY, mend)
+        _log_remedy(recording, *mended)
     if fidelity == "lean":
         return
-    paid = {
-        title: split_cost(detection, rows).terms
-        for title, rows in (
-            ("Path: cost of each column", detection.skyline.rows.astype(np.int32)),
-            ("Truth: cost of each column", case.rows),
-        )
-    }
+    paid = split_cost(detection, detection.skyline.rows.astype(np.int32)).terms
+    due = split_cost(detection, case.rows).terms
+    dearer = {term: due[term] - costs for term, costs in paid.items()}
     colours = {term.name: term.colour for term in detection.cost_model.terms}
-    recording.log(entities.STACKED_COSTS, rr.Image(stacked_columns(paid, colours)))
+    picture = stacked_columns({DEARER: dearer}, colours)
+    recording.log(entities.STACKED_COSTS, rr.Image(picture))
+
+
+def _said(remedy: Remedy) -> tuple[str, ...]:
+    """What mends a photo, and with which flags, in Markdown."""
+    flags = named_in_markdown(remedy.flags)
+    return (
+        f"**A_err {remedy.a_err:.2f} px** with {named_in_markdown(remedy.name)}  ",
+        f"To be added: `{flags}`" if flags == remedy.flags else f"To be added: {flags}",
+    )
+
+
+def _log_remedy(recording: rr.RecordingStream, remedy: Remedy, line: Skyline) -> None:
+    """Draw the line with other settings, in dashes: the proof of the cause is a whole one."""
+    points = np.column_stack([np.arange(line.width) + 0.5, line.rows]).astype(np.float32)
+    dash = max(round(line.width / _DASHES), 2)
+    dashes = [points[first : first + dash] for first in range(0, line.width, 2 * dash)]
+    spelt = remedy.flags if len(remedy.flags) <= _SHORT else "other settings"
+    labels = [f"{spelt}: A_err {remedy.a_err:.2f} px"]
+    middle = len(dashes) // 2
+    for entity, strips, shown in (
+        (entities.REMEDY, dashes[:middle] + dashes[middle + 1 :], None),
+        (f"{entities.REMEDY}/named", [dashes[middle]], labels),
+    ):
+        strip = rr.LineStrips2D(
+            strips, colors=[ALTERNATIVE], radii=[-1.5], labels=shown, draw_order=43.0
+        )
+        recording.log(entity, strip)
 
 
 def _around(segment: Segment) -> npt.NDArray[np.float32]:
@@ -127,7 +146,11 @@ def _around(segment: Segment) -> npt.NDArray[np.float32]:
 
 
 def _log_truth_pixels(recording: rr.RecordingStream, case: Case) -> None:
-    """Mark where the truth has no edge, and where its edge pixels are in starved bins."""
+    """Mark where the truth has no edge, and where its edge pixels are in starved bins.
+
+    The marks lie above the truth: on it they would hide it, and what comes back to it.
+    """
+    above = max(round(len(case.detection.photo) / _MARKED), 2)
     on_edge = case.pixels >= 0
     starved = np.zeros(len(on_edge), np.bool_)
     detection = case.detection
@@ -136,7 +159,7 @@ def _log_truth_pixels(recording: rr.RecordingStream, case: Case) -> None:
         (entities.TRUTH_MISSED, ~on_edge & case.truth.visible, _MISSED),
         (entities.TRUTH_STARVED, starved & case.truth.visible, _STARVED),
     ):
-        points = _points(np.flatnonzero(where), case.rows)
+        points = _points(np.flatnonzero(where), case.rows - above)
         marks = rr.Points2D(points, colors=[colour], radii=[-2.0], draw_order=45.0)
         recording.log(entity, marks)
 

@@ -6,6 +6,7 @@ import re
 
 import pytest
 
+import skyline_viz as sv
 from skyline_viz.cli import main
 from skyline_viz.diagnosis.causes import CAUSES
 from testing import SAMPLES, detections
@@ -56,6 +57,8 @@ def test_the_command_tells_causes_and_remedies(tmp_path, capsys):
     first, last = told["hazy-2"]["segments"][0]["columns"]
     assert 0 <= first < last <= 959
     assert len(told["hazy-1"]["remedies"]) > 25
+    assert sv.read_photo(tmp_path / "causes.png").shape[1] == 1440
+    assert {name for one in document["causes"] for name in one["names"]} <= {*told}
     assert document["causes"][0]["a_err"] >= document["causes"][-1]["a_err"]
 
 
@@ -75,6 +78,9 @@ def test_the_command_tells_one_photo_in_full(capsys):
     out = capsys.readouterr().out
     assert re.match(r"hazy-1  A_err 1\d\d\.\d\d px", out)
     assert "the truth costs more than the path by: score" in out
+    assert "edges found anew with a quarter of the Canny thresholds" in out
+    assert re.search(r"What would help most\nsetting .* A_err .* repairs .* breaks\n", out)
+    assert re.search(r"For the best: add --\S+", out)
     assert main(["diagnose", str(SAMPLES), "--photo", "nobody"]) == 2
     assert "has no photo nobody" in capsys.readouterr().err
     assert main(["diagnose", str(SAMPLES), "--tolerance", "-1"]) == 2

@@ -1,9 +1,11 @@
 """A diagnosed data set, cause by cause."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from skyline_viz.diagnosis.by_cause import by_cause
+from skyline_viz.diagnosis.by_cause import by_cause, over_all
 from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment
 from skyline_viz.diagnosis.record import Diagnosed
 from skyline_viz.diagnosis.remedies import Remedy
@@ -21,7 +23,7 @@ def segment(cause, error, terms=(), place=None, first=0):
         terms=terms,
         place=place,
         begins=first,
-        evidence="It is so.",
+        findings=("It is so.",),
         trials=(),
         margin=1.0,
         path_cost={},
@@ -69,6 +71,24 @@ def test_the_best_remedy_is_that_of_the_photos_it_is_the_main_cause_of(found):
     assert (off.broken, off.change_of_all) == (3, pytest.approx(-8 / 3))
     assert wire.remedy.name == "weak"
     assert (wire.remedy.photos, wire.remedy.of) == (0, 0)  # a small miss, but no gross one
+    assert (off.misses, wire.remedy.misses) == (1, 0)  # b is one only with the other
+
+
+def test_pairs_and_what_was_tried_on_some_photos_only_are_no_remedy_of_a_cause(found):
+    more = replace(found[0].remedies[0], name="off and weak", change=-19.0, a_err=4.0)
+    some = replace(found[0], remedies=(*found[0].remedies, more))
+    assert by_cause([some, *found[1:]])[0].remedy.name == "off"
+    assert "off and weak" not in over_all([some, *found[1:]])
+    assert by_cause([some])[0].remedy.name == "off and weak"
+    paired = replace(found[0], remedies=(*found[0].remedies, replace(more, pair=True)))
+    assert by_cause([paired])[0].remedy.name == "off"
+
+
+def test_the_photos_of_a_cause_are_named_the_worst_first(found):
+    cloud, _wire = by_cause(found)
+    assert cloud.names == ("a",)
+    again = replace(found[0], name="d", diagnosis=Diagnosis((WIRE, WIRE), 4.0))
+    assert by_cause([found[1], again])[0].names == ("d", "b")
 
 
 def test_what_helps_nobody_is_no_remedy():

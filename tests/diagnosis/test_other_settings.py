@@ -7,7 +7,7 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.cli import main
-from skyline_viz.diagnosis.other_settings import flags, settings_to_try
+from skyline_viz.diagnosis.other_settings import PAIRED, flags, pairs_to_try, settings_to_try
 
 
 @pytest.fixture(scope="module")
@@ -55,6 +55,24 @@ def test_each_setting_goes_up_and_down(photo):
         present = getattr(found.config, name)
         others = {getattr(one, name) for one in tried}
         assert min(others) < present < max(others), name
+
+
+def test_settings_that_helped_most_are_tried_in_pairs():
+    config = sv.DetectorConfig()
+    single = {
+        "a": replace(config, delta=8),
+        "b": replace(config, v=0.75),
+        "c": replace(config, delta=2),
+        "d": replace(config, clear_sky=0.0),
+        "e": replace(config, sky_cap=2.0),
+        "f": replace(config, sky_weight=9.0),
+    }
+    changes = {"a": -9.0, "b": -8.0, "c": -7.0, "d": -6.0, "e": -5.0, "f": 1.0}
+    pairs = pairs_to_try(config, single, changes)
+    assert [*pairs] == ["a and b", "a and d", "b and c", "b and d", "c and d"]  # not two deltas
+    assert PAIRED == 4  # so neither e nor f
+    assert pairs["a and b"] == replace(config, delta=8, v=0.75)
+    assert pairs_to_try(config, single, dict.fromkeys(single, 0.5)) == {}
 
 
 def test_presets_are_tried_as_a_whole(photo):

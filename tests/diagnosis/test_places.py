@@ -46,11 +46,18 @@ def with_rows(first, last, colour, **colours):
         ("haze", with_rows(40, 59, (60, 60, 60), ground=(194, 194, 194)), 40),
         ("snow", with_rows(RIDGE, 109, (220, 222, 226), sky=BLUE), 110),
         ("foreground ridge", with_rows(RIDGE, 109, (150, 150, 150)), 110),
-        ("foreground ridge", with_rows(RIDGE, 109, (220, 222, 226), sky=(140, 140, 140)), 110),
+        ("snow", with_rows(RIDGE, 109, (220, 222, 226), sky=(140, 140, 140)), 110),
+        ("foreground ridge", with_rows(RIDGE, 109, (200, 200, 205), sky=(240, 240, 240)), 110),
     ],
 )
 def test_a_place_is_told_by_what_is_measured(place, photo, path):
     assert found(photo, path).place == place
+
+
+def test_a_thin_wire_before_a_cloud_is_a_wire():
+    photo = with_rows(40, 40, (60, 60, 60))
+    photo[43:60] = (160, 160, 160)  # the lower side of a cloud, a little under the wire
+    assert found(photo, 40).place == "wire"
 
 
 def test_a_soft_ridge_is_in_haze_whatever_lies_below():

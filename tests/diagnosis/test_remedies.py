@@ -5,7 +5,7 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.diagnosis.diagnosing import diagnose
-from skyline_viz.diagnosis.remedies import Remedy, best, most_helpful, try_remedies
+from skyline_viz.diagnosis.remedies import LARGER, Remedy, best, most_helpful, try_remedies
 from skyline_viz.diagnosis.remedies import _broken as broken
 from skyline_viz.methods.gradient import GradientCost
 from skyline_viz.skyline import Skyline
@@ -54,6 +54,21 @@ def test_the_best_remedy_comes_with_its_line_and_its_flags():
     assert remedy.a_err == pytest.approx(sv.a_err(line, truth))
     assert remedy == min(try_remedies(found, truth, diagnosis), key=lambda one: one.a_err)
     assert remedy.flags.startswith("--")
+
+
+def test_pairs_and_the_larger_sky_model_are_tried_as_well():
+    photo, truth = lines_in_the_sky(1)
+    found = WITHOUT_SKY.detect(photo)
+    tried = try_remedies(found, truth, diagnose(found, truth))
+    pairs = [one.name for one in tried if one.pair]
+    assert pairs
+    assert all(" and " in name for name in pairs)
+    assert not any(one.flags == LARGER for one in tried)  # no sky model runs
+    ours = sv.Detector().detect(photo)
+    tried = try_remedies(ours, truth, diagnose(ours, truth))
+    (large,) = (one for one in tried if one.flags == LARGER)
+    line = sv.Detector(sky=sv.SkyModel.large()).detect(photo).skyline
+    assert large.a_err == pytest.approx(sv.a_err(line, truth))
 
 
 def test_what_makes_it_worse_is_no_remedy():

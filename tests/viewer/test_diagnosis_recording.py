@@ -72,5 +72,27 @@ def test_the_remedy_is_drawn_with_its_flags(tmp_path):
     read = Read(tmp_path / "d.rrd")
     words = read.last(entities.DIAGNOSIS, "TextDocument:text").as_py()[0]
     assert "To be added: `--config.link-weight 0`" in words
-    labels = read.last(entities.REMEDY, "LineStrips2D:labels").as_py()
+    assert words.index("To be added") < words.index(diagnosis.main.title)  # what helps comes first
+    named = f"{entities.REMEDY}/named"
+    labels = read.last(named, "LineStrips2D:labels").as_py()
     assert labels == ["--config.link-weight 0: A_err 1.50 px"]
+    dashes = [
+        *read.last(entities.REMEDY, "LineStrips2D:strips").as_py(),
+        *read.last(named, "LineStrips2D:strips").as_py(),
+    ]
+    columns = sorted(column for dash in dashes for column, _ in dash)
+    assert len(columns) == len(set(columns)) == pytest.approx(truth.width / 2, abs=8)
+
+
+def test_long_flags_stand_in_the_report_alone(tmp_path):
+    photo, truth = detections.lines_in_the_sky(1)
+    found = detections.WITHOUT_SKY.detect(photo)
+    flags = "--config.link-weight 0 --config.strength-percentile 75"
+    remedy = Remedy("both", flags, 1, 0, 1.5, -9.0, gross_miss=False)
+    with sv.new_recording(tmp_path / "d.rrd", "d") as recording:
+        log_diagnosis(recording, diagnose(found, truth), found, truth, mended=(remedy, truth))
+    read = Read(tmp_path / "d.rrd")
+    labels = read.last(f"{entities.REMEDY}/named", "LineStrips2D:labels").as_py()
+    assert labels == ["other settings: A_err 1.50 px"]
+    words = read.last(entities.DIAGNOSIS, "TextDocument:text").as_py()[0]
+    assert f"To be added: `{flags}`" in words

@@ -36,7 +36,25 @@ def test_doubtful_truths_are_opened_where_they_are_doubtful(folder, tmp_path, ca
     bench.close()
     file.write_text(json.dumps({**document, "photos": photos[1:]}))
     assert run("open", folder, "--from-diagnosis", file) == 2
-    assert "doubts no truth of a photo" in capsys.readouterr().err
+    assert "has the cause truth doubtful of no photo" in capsys.readouterr().err
+
+
+def test_photos_with_any_cause_place_or_term_are_opened(folder, tmp_path, capsys):
+    titles = ["cheaper path by clear sky, haze", "cheaper path by sky, haze", "missed edge, wire"]
+    photos = [
+        {"name": f"hill-{at}", "segments": [{"cause": "x", "title": title, "columns": [4, 8 * at]}]}
+        for at, title in enumerate(titles, start=1)
+    ]
+    document = {"format": "skyline-diagnosis", "version": 1, "photos": photos}
+    file = tmp_path / "diagnosis.json"
+    file.write_text(json.dumps(document))
+    assert read_doubts(file, "haze") == {"hill-1": 6, "hill-2": 10}
+    assert read_doubts(file, "sky") == {"hill-2": 10}
+    assert read_doubts(file, "missed edge") == {"hill-3": 14}
+    assert run("open", folder, "--from-diagnosis", file, "--cause", "snow") == 2
+    assert "has the cause snow of no photo" in capsys.readouterr().err
+    assert run("open", folder, "--cause", "snow") == 2
+    assert "--from-diagnosis FILE names it" in capsys.readouterr().err
 
 
 def diagnosis_with(columns, name="hill-1", version=1):
