@@ -10,10 +10,10 @@ import numpy as np
 
 from skyline_viz.arrays import F32, Bool, Int
 from skyline_viz.cost import CostModel, Seen
-from skyline_viz.detection import FilterDetection
 from skyline_viz.diagnosis.counterfactual import Case
 from skyline_viz.edges import edge_index, edge_pixels, slopes_of, to_grey
 from skyline_viz.evaluation.metrics import scaled
+from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.kernels.canny import canny
 from skyline_viz.score import score_at
 from skyline_viz.tensor import tensor_at
