@@ -22,15 +22,16 @@ from skyline_viz.viewer.contents import Contents
 from skyline_viz.viewer.stage_maps import SEARCH
 from skyline_viz.viewer.tabs.answer import photos_tab, skyline_tab
 from skyline_viz.viewer.tabs.columns import columns_tab
+from skyline_viz.viewer.tabs.compare import compare_tab
 from skyline_viz.viewer.tabs.diagnosis import diagnosis_tab
-from skyline_viz.viewer.tabs.methods import compare_tab, method_tab, methods_tab
+from skyline_viz.viewer.tabs.methods import method_tab, methods_tab
 from skyline_viz.viewer.tabs.pixel import bank_tab, pixel_tab
 from skyline_viz.viewer.tabs.stages import lettered, own_tab, stages_tab
 from skyline_viz.viewer.tabs.sweep import sweep_tab
-from skyline_viz.viewer.tabs.views import grid, photo_view, with_halos
+from skyline_viz.viewer.tabs.views import grid, map_view, photo_view, with_halos
 
-TABS = ("Skyline", "Stages", "Tensor", "Terms", "Search", "Filter bank", "Columns")
-"""The tabs of a recording of one photo with a full detection."""
+TABS = ("Skyline", "Stages", "Tensor", "Terms", "Search", "Pixel", "Filter bank", "Columns")
+"""The tabs of one photo with a full detection, as ``inspect`` shows it."""
 
 
 def detection_blueprint(contents: Contents, active: str = "Skyline") -> rrb.Blueprint:
@@ -68,12 +69,19 @@ def stages_blueprint(height: int, width: int, stages: Iterable[str]) -> rrb.Blue
         stages: Names of the maps.
     """
     contents = Contents(height, width)
-    views = {name.rsplit("/", 1)[-1].capitalize(): [name] for name in stages}
-    views = {"Photo": [entities.PHOTO], **views, "Skyline": [entities.PHOTO, *with_halos()]}
+    lines = [entities.PATH, entities.TRUTH]
+    views = [
+        photo_view("Photo", [entities.PHOTO]),
+        *(
+            map_view(contents, name.rsplit("/", 1)[-1].capitalize(), [name], lines)
+            for name in stages
+        ),
+        photo_view("Skyline", [entities.PHOTO, *with_halos()]),
+    ]
     line = photo_view("Where is the line?", [entities.PHOTO, *with_halos()])
     tabs = [
         rrb.Vertical(line, name="Skyline"),
-        grid(contents, [photo_view(*one) for one in views.items()], "Stages"),
+        grid(contents, views, "Stages"),
     ]
     return _with_panels(tabs, contents, "Skyline")
 

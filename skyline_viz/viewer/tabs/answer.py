@@ -7,7 +7,14 @@ import rerun.blueprint as rrb
 from skyline_viz.stage import SKY
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.tabs.views import bar_plot, errors_plot, photo_view, with_halos
+from skyline_viz.viewer.tabs.views import (
+    bar_plot,
+    beside,
+    errors_plot,
+    photo_view,
+    series_plot,
+    with_halos,
+)
 
 
 def skyline_tab(contents: Contents) -> rrb.Container:
@@ -18,13 +25,16 @@ def skyline_tab(contents: Contents) -> rrb.Container:
         + (f", yellow: {contents.compared}" if contents.compared else ""),
         [entities.PHOTO, *with_halos(), entities.STRIP, f"{entities.CHOSEN}/**"],
     )
-    plot = errors_plot() if contents.truth else bar_plot(entities.MARGINS, "Margin (cost)")
     report = rrb.TextDocumentView(origin=entities.REPORT, name="Report")
-    if contents.width < 1.2 * contents.height:
-        side = rrb.Vertical(report, plot, row_shares=[3, 2])
-        return rrb.Horizontal(line, side, column_shares=[3, 2], name="Skyline")
-    foot = rrb.Horizontal(plot, report, column_shares=[3, 2])
-    return rrb.Vertical(line, foot, row_shares=[3, 2], name="Skyline")
+    return beside(contents, line, [report, _plot(contents)], "Skyline")
+
+
+def _plot(contents: Contents) -> rrb.View:
+    if contents.truth:
+        return errors_plot(contents)
+    if contents.columns and not contents.swept:
+        return series_plot(contents, "margin", "Margin (cost)")
+    return bar_plot(entities.MARGINS, "Margin (cost)")
 
 
 def photos_tab(contents: Contents) -> rrb.Container:

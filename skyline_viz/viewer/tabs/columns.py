@@ -6,7 +6,13 @@ import rerun.blueprint as rrb
 
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.tabs.views import bar_plot, chosen_view, errors_plot
+from skyline_viz.viewer.tabs.views import (
+    bar_plot,
+    chosen_view,
+    errors_plot,
+    is_wide,
+    series_plot,
+)
 
 
 def columns_tab(contents: Contents) -> rrb.Container:
@@ -19,24 +25,19 @@ def columns_tab(contents: Contents) -> rrb.Container:
         **({"apart": "Truth less path (cost), mean of 9 columns"} if contents.truth else {}),
         "path": "Nodal and link cost of the path",
     }
-    axis = rrb.TimeAxis(link=rrb.components.LinkAxis.LinkToGlobal)
-    plots = [
-        rrb.TimeSeriesView(
-            origin=f"{entities.SERIES}/{name}",
-            name=title,
-            axis_x=axis,
-            plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.RightTop),
-        )
-        for name, title in titles.items()
-    ]
-    shares = [2, *(2 if name == "apart" else 1 for name in titles)]
-    return rrb.Vertical(chosen_view(contents), *plots, row_shares=shares, name="Columns")
+    plots = [series_plot(contents, name, title) for name, title in titles.items()]
+    shares = [1.7 if name == "apart" else 1.1 for name in titles]
+    photo = chosen_view(contents)
+    if is_wide(contents):
+        return rrb.Vertical(photo, *plots, row_shares=[1.6, *shares], name="Columns")
+    side = rrb.Vertical(*plots, row_shares=shares)
+    return rrb.Horizontal(photo, side, column_shares=[2, 3], name="Columns")
 
 
 def _bars_tab(contents: Contents) -> rrb.Container:
     """Plots of several photos, whose timeline is that of the photos."""
     plots = [
-        *([errors_plot()] if contents.truth else []),
+        *([errors_plot(contents)] if contents.truth else []),
         bar_plot(entities.MARGINS, "Margin (cost): how much dearer the best other path is"),
         bar_plot(entities.NODE_COSTS, "Nodal cost of the path"),
         bar_plot(entities.LINK_COSTS, "Link cost of the path"),

@@ -6,7 +6,14 @@ import rerun.blueprint as rrb
 
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.tabs.views import errors_plot, photo_view, whole_photo, with_halos
+from skyline_viz.viewer.tabs.views import (
+    beside,
+    errors_plot,
+    photo_view,
+    series_plot,
+    whole_photo,
+    with_halos,
+)
 
 
 def diagnosis_tab(contents: Contents) -> rrb.Container:
@@ -14,13 +21,14 @@ def diagnosis_tab(contents: Contents) -> rrb.Container:
     marks = [f"{entities.SEGMENTS}/**", entities.TRUTH_MISSED, entities.TRUTH_STARVED]
     lines = with_halos([entities.PATH, entities.TRUTH, entities.COUNTERFACTUAL])
     photo = photo_view(
-        "Yellow: the path with its cause made right, or with other settings. On the truth, orange: "
-        "no edge; blue: starved",
+        "Magenta: path, turquoise: truth, yellow: path with its cause made right, or other "
+        "settings. On the truth, orange: no edge, blue: starved",
         [entities.PHOTO, *lines, *marks],
         whole_photo(contents),
     )
     report = rrb.TextDocumentView(origin=entities.DIAGNOSIS, name="Why")
-    pays = photo_view("What they pay", [entities.STACKED_COSTS])
-    plot = pays if contents.stacked_costs else errors_plot()
-    foot = rrb.Horizontal(plot, report, column_shares=[2, 1])
-    return rrb.Vertical(photo, foot, row_shares=[3, 2], name="Diagnosis")
+    if contents.columns and not contents.swept:
+        plot = series_plot(contents, "apart", "Truth less path (cost), mean of 9 columns")
+    else:
+        plot = errors_plot(contents)
+    return beside(contents, photo, [report, plot], "Diagnosis")

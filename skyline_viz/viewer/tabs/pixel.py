@@ -6,39 +6,47 @@ import rerun.blueprint as rrb
 
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.tabs.views import BLACK, chosen_view, photo_view
+from skyline_viz.viewer.tabs.views import BLACK, chosen_view, is_wide, photo_view
 
 
 def pixel_tab(contents: Contents) -> rrb.Container:
     """Patch, filter and product of both pixels, and what they pay."""
     about = rrb.TextDocumentView(origin=entities.PIXEL_ABOUT, name="What it pays, and why")
-    head = rrb.Horizontal(chosen_view(contents), about, column_shares=[3, 2])
-    if not contents.bank:
-        return rrb.Vertical(head, name="Pixel")
-    views = []
-    for line in ("path", *(["truth"] if contents.truth else [])):
-        for title in ("patch", "filter", "product"):
-            shown = [f"{entities.pixel_of(line)}/{one}" for one in (title, "ellipse")]
-            shown = shown if title == "patch" else shown[:1]
-            views.append(photo_view(f"{line.capitalize()}: {title}", shown))
-    return rrb.Vertical(head, rrb.Horizontal(*views), row_shares=[2, 1], name="Pixel")
+    photo: rrb.View | rrb.Container = chosen_view(contents)
+    if contents.bank:
+        rows = [_steps(line) for line in ("path", *(["truth"] if contents.truth else []))]
+        share = 2 if is_wide(contents) or len(rows) == 1 else 3
+        photo = rrb.Vertical(photo, *rows, row_shares=[share, *(1.2 for _ in rows)])
+    return rrb.Horizontal(photo, about, column_shares=[3, 2], name="Pixel")
+
+
+def _steps(line: str) -> rrb.Container:
+    """From the patch around a line's pixel to what it adds to the score."""
+    parent, title = entities.pixel_of(line), line.capitalize()
+    return rrb.Horizontal(
+        photo_view(f"{title}: patch", [f"{parent}/patch", f"{parent}/ellipse"]),
+        photo_view(f"{title}: filter", [f"{parent}/filter"]),
+        photo_view(f"{title}: product", [f"{parent}/product"]),
+    )
 
 
 def bank_tab(contents: Contents) -> rrb.Container:
     """The filters, and those that the chosen pixels use."""
-    filters = rrb.Spatial2DView(
-        origin="bank",
-        contents=[f"+ /{entities.BANK_FILTERS}/**", f"+ /{entities.BANK_CHOSEN}/**"],
-        name="Filters: blue negative, red positive taps",
-        background=BLACK,
-    )
-    samples = rrb.Spatial2DView(
-        origin="bank",
-        contents=[f"+ /{entities.BANK_SAMPLES}/**", f"+ /{entities.BANK_CHOSEN}/**"],
-        name="Training samples in each bin",
-        background=BLACK,
-    )
-    pictures = rrb.Horizontal(filters, samples)
+    filters = _mosaic("Filters: blue negative, red positive taps", entities.BANK_FILTERS)
+    samples = _mosaic("Training samples in each bin", entities.BANK_SAMPLES)
     if not contents.columns:
         return rrb.Horizontal(filters, samples, name="Filter bank")
-    return rrb.Vertical(pictures, chosen_view(contents), row_shares=[3, 1], name="Filter bank")
+    photo = chosen_view(contents)
+    if is_wide(contents):
+        pictures = rrb.Horizontal(filters, samples)
+        return rrb.Vertical(pictures, photo, row_shares=[3, 1], name="Filter bank")
+    return rrb.Horizontal(filters, samples, photo, column_shares=[4, 4, 3], name="Filter bank")
+
+
+def _mosaic(title: str, entity: str) -> rrb.View:
+    return rrb.Spatial2DView(
+        origin="bank",
+        contents=[f"+ /{entity}/**", f"+ /{entities.BANK_CHOSEN}/**"],
+        name=title,
+        background=BLACK,
+    )

@@ -6,12 +6,14 @@ from collections.abc import Sequence
 
 import rerun.blueprint as rrb
 
-from skyline_viz.stage import ADDED, COST, FUSED, Quantity
+from skyline_viz.stage import ADDED, BIN, COST, Quantity
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.tabs.views import grid, map_view, photo_view, with_halos
+from skyline_viz.viewer.tabs.views import grid, lines_of, map_view, photo_view, with_halos
 
-_PAPERS = ("edges", "score", "strength", "score and strength")  # figure 1 besides photo and path
+_LETTERS = {"edges": "b", "score": "c", "strength": "d", "score and strength": "e"}
+"""Letters of the paper's figure 1, in which (a) is the photo and (f) the path."""
+
 _FIGURE_1 = {
     "edges": 0,
     "score": 1,
@@ -23,7 +25,9 @@ _FIGURE_1 = {
 def stages_tab(contents: Contents, stages: dict[str, list[str]], name: str) -> rrb.Container:
     """Maps beside each other, by their titles, with what each shows."""
     views = [
-        photo_view(title, shown) if entities.PHOTO in shown else map_view(contents, title, shown)
+        photo_view(title, shown)
+        if entities.PHOTO in shown
+        else map_view(contents, title, shown, lines_of(contents))
         for title, shown in stages.items()
     ]
     return grid(contents, views, name)
@@ -37,14 +41,14 @@ def own_tab(contents: Contents, quantities: Sequence[Quantity], name: str) -> li
 
 def lettered(contents: Contents) -> dict[str, list[str]]:
     """Figure 1 of the paper, (a) to (f), and what we add to it as added; or all of another's."""
-    figure = figure_1(contents.stages)
-    path = [entities.PHOTO, *with_halos()]
-    ours = FUSED in contents.stages
-    papers = {one.title for one in contents.stages if one.name in _PAPERS or not ours}
-    known = {title: shown for title, shown in figure.items() if title in papers}
-    views = {"Photo": [entities.PHOTO], **known, "Path": path}
-    named = {f"({chr(ord('a') + at)}) {title}": views[title] for at, title in enumerate(views)}
-    added = {title: shown for title, shown in figure.items() if title not in papers}
+    figure, path = figure_1(contents.stages), [entities.PHOTO, *with_halos()]
+    if BIN not in contents.stages:
+        views = {"Photo": [entities.PHOTO], **figure, "Path": path}
+        return {f"({chr(ord('a') + at)}) {title}": views[title] for at, title in enumerate(views)}
+    letters = {one.title: _LETTERS.get(one.name) for one in contents.stages}
+    named = {f"({letters[title]}) {title}": figure[title] for title in figure if letters[title]}
+    named = {"(a) Photo": [entities.PHOTO], **named, "(f) Path": path}
+    added = {title: figure[title] for title in figure if not letters[title]}
     if ADDED in contents.terms:
         added[ADDED.title] = [entities.of_quantity(ADDED)]
     return named | {

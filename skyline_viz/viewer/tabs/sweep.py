@@ -6,7 +6,7 @@ import rerun.blueprint as rrb
 
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.tabs.views import photo_view, with_halos
+from skyline_viz.viewer.tabs.views import is_wide, map_view, photo_view, with_halos
 
 
 def sweep_tab(contents: Contents) -> rrb.Container:
@@ -16,9 +16,17 @@ def sweep_tab(contents: Contents) -> rrb.Container:
         + (", turquoise: truth" if contents.truth else ""),
         [entities.PHOTO, *with_halos([entities.PATH, entities.TRUTH, entities.SWEEP_PATH])],
     )
-    edges = photo_view("Edges", [entities.SWEEP_EDGES])
-    cost = photo_view("Nodal cost: bright is cheap", [entities.SWEEP_COST])
-    pictures = rrb.Vertical(photo, rrb.Horizontal(edges, cost), row_shares=[3, 2])
+    edges = map_view(contents, "Edges", [entities.SWEEP_EDGES])
+    cost = map_view(
+        contents,
+        "Nodal cost, the cheapest of each column",
+        [entities.SWEEP_COST],
+    )
+    pictures: rrb.Container
+    if is_wide(contents):
+        pictures = rrb.Vertical(photo, rrb.Horizontal(edges, cost), row_shares=[3, 2])
+    else:
+        pictures = rrb.Horizontal(photo, rrb.Vertical(edges, cost), column_shares=[3, 2])
     plot = rrb.TimeSeriesView(
         origin=entities.SWEEP_ERROR,
         name="A_err (px)" if contents.truth else "Mean distance from the present path (px)",

@@ -1,6 +1,6 @@
 """Tabs of maps: the paper's figure in its order, what is added, and lines on every map."""
 
-from skyline_viz.stage import ADDED, SKY
+from skyline_viz.stage import ADDED, COST, EDGES, FUSED, OURS, SKY
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.blueprints import detection_blueprint
 from skyline_viz.viewer.contents import Contents
@@ -25,5 +25,20 @@ def test_maps_have_path_and_truth_on_them():
     assert {f"+ /{entities.PATH}", f"+ /{entities.TRUTH}"} <= set(edges.contents)
 
 
-def test_lean_maps_say_that_they_are():
-    assert "lean" in views(lean=True)[1].name
+def test_lean_maps_say_that_they_are_and_those_that_are_whole_do_not():
+    lean = tuple(one for one in OURS if one != FUSED)
+    names = [view.name for view in views(lean=True, stages=lean)]
+    assert [name.removeprefix("Lean: ")[:3] for name in names[:5]] == [
+        "(a)",
+        "(b)",
+        "(c)",
+        "(d)",
+        "(f)",
+    ]
+    assert [name.startswith("Lean: ") for name in names] == [
+        any(word in name for word in ("Score", "strength", "cost")) for name in names
+    ]
+
+
+def test_all_stages_of_another_method_have_letters():
+    assert [view.name[:3] for view in views(stages=(EDGES, COST))] == ["(a)", "(b)", "(c)", "(d)"]

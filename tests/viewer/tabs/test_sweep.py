@@ -10,8 +10,8 @@ def test_all_that_a_setting_changes_is_in_sight():
     shown = shown_in(sweep_tab(Contents(300, 800, swept="delta")))
     assert {
         f"{entities.SWEEP_PATH}/**",
-        entities.SWEEP_EDGES,
-        entities.SWEEP_COST,
+        f"{entities.SWEEP_EDGES}/**",
+        f"{entities.SWEEP_COST}/**",
         entities.SWEEP_ERROR,
         entities.SWEEP_REPORT,
     } <= shown
