@@ -114,6 +114,7 @@ def test_scrubbing_a_setting_moves_the_path(tmp_path):
     with headless_viewer([file]) as client, Robot(viewer_port(others)) as robot:
         assert tab_names(client) == [*TABS, "Diagnosis", "Sweep"]
         show_tab(client, "Pixel")
+        settled_picture(client)
         assert until(lambda: robot.says("the worst one"))  # of the worst column, on any timeline
         show_tab(client, "Sweep")
         assert until(lambda: robot.says("The present settings"))  # it opens with them
