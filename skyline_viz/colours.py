@@ -43,11 +43,16 @@ _BLUE_TO_RED = (
     "FDDBC7", "F4A582", "D6604D", "B2182B", "67001F",
 )  # fmt: skip  # ColorBrewer's RdBu, which colour-vision deficiency leaves two-sided
 
-
-_BLUE_OR_RED = (
-    "B9DDF9", "7DBBEE", "4596DB", "2670B0", "1E4C79", "141414",
-    "7E2B1E", "B84A31", "E2714F", "F6A383", "FCD7C5",
-)  # fmt: skip  # as RdBu, the other way round in brightness: alike is as dark as what lies behind
+_DIVERGING = {
+    "blue_red": _BLUE_TO_RED,
+    "blue_grey_red": (
+        "3B6FD4", "5B84C8", "7A93B4", "8E959C", "8C8C8C", "9C8F8A", "BB8478", "DC6E5E", "FF5040",
+    ),
+    "blue_or_red": (  # as RdBu, the other way round in brightness: alike is as dark as the back
+        "B9DDF9", "7DBBEE", "4596DB", "2670B0", "1E4C79", "141414",
+        "7E2B1E", "B84A31", "E2714F", "F6A383", "FCD7C5",
+    ),
+}  # fmt: skip
 
 
 @lru_cache(maxsize=16)
@@ -55,8 +60,9 @@ def colour_map(name: str) -> U8:
     """A colour map as a table ``(256, 3)`` uint8 RGB.
 
     ``viridis``, ``inferno`` and ``magma`` are perceptually uniform, ``twilight_shifted`` is cyclic,
-    ``blue_red`` has white in its middle, ``blue_or_red`` black, and ``gray`` is what it says. The
-    ending ``_r`` turns a map round.
+    ``blue_red`` has white in its middle; for black backgrounds ``blue_grey_red`` has grey, so that
+    red is the brightest, and ``blue_or_red`` black; ``gray`` is what it says. The ending ``_r``
+    turns a map round.
 
     >>> colour_map("blue_red")[[0, 255]].tolist()
     [[5, 48, 97], [103, 0, 31]]
@@ -66,9 +72,8 @@ def colour_map(name: str) -> U8:
     """
     if name.endswith("_r"):
         table = colour_map(name[:-2])[::-1].copy()
-    elif name in ("blue_red", "blue_or_red"):
-        named = _BLUE_TO_RED if name == "blue_red" else _BLUE_OR_RED
-        anchors = np.array([[*bytes.fromhex(one)] for one in named])
+    elif name in _DIVERGING:
+        anchors = np.array([[*bytes.fromhex(one)] for one in _DIVERGING[name]])
         places = np.linspace(0, len(anchors) - 1, 256)
         between = [np.interp(places, np.arange(len(anchors)), one) for one in anchors.T]
         table = np.rint(np.stack(between, axis=1)).astype(np.uint8)

@@ -64,6 +64,11 @@ class Quantity:
         """What it is, in words."""
         return self.about or self.name.capitalize()
 
+    @property
+    def low_is_bright(self) -> bool:
+        """Whether low values are the bright ones, as with costs."""
+        return self.colour_map.endswith("_r")
+
     def label(self, value: float, step: float) -> str:
         """Name, value and unit, with as many digits as a step can tell apart.
 
@@ -133,7 +138,11 @@ class Stage:
 
 
 SKY = Quantity(
-    "sky", low=0.0, high=1.0, smooth=True, about="Sky: bright where the sky model sees it"
+    "sky",
+    low=0.0,
+    high=1.0,
+    smooth=True,
+    about="Sky (probability): bright where seen",
 )
 EDGES = Quantity("edges", "gray", about="Edges")
 STRENGTH = Quantity(
@@ -146,30 +155,39 @@ STRENGTH = Quantity(
     group="tensor",
     tabs=("Stages", "Tensor"),
 )
-COHERENCE = Quantity("coherence", low=0.0, high=1.0, group="tensor", tabs=("Tensor",))
+COHERENCE = Quantity(
+    "coherence",
+    low=0.0,
+    high=1.0,
+    about="Coherence: bright where all gradients point one way",
+    group="tensor",
+    tabs=("Tensor",),
+)
 ORIENTATION = Quantity(
     "orientation",
     "twilight_shifted",
     "°",
     low=0.0,
     high=180.0,
-    about="Orientation of the gradient (degrees)",
+    about="Orientation of the gradient (degrees): dark where it is weak",
     group="tensor",
     tabs=("Tensor",),
 )
 BIN = Quantity(
     "bin",
     "twilight_shifted",
-    about="Bin: hue is orientation, brighter is stronger",
+    about="Bin: hue is orientation (degrees), brighter is stronger",
     tabs=("Tensor",),
 )
-SCORE = Quantity("score", low=0.0, high=1.0, about="Score: bright like skyline")
+SCORE = Quantity(
+    "score", "blue_grey_red", low=0.0, high=1.0, about="Score: red like skyline, blue not"
+)
 COST = Quantity(
     "cost",
     "magma_r",
     span=(0.0, 0.88),
     contrast=0.5,
-    about="Nodal cost: all terms, bright is cheap",
+    about="Nodal cost, all terms: bright is cheap",
     word="nodal cost",
 )
 PATH = Quantity("path", unit=" px", about="Path: row of the skyline", tabs=())
@@ -180,7 +198,7 @@ DETOUR = Quantity(
     (0.0, 0.88),
     0.5,
     low=0.0,
-    about="Min-marginals: how much dearer the best path through a pixel is",
+    about="Min-marginals (cost): how much dearer the best path through a pixel is",
     tabs=("Search",),
 )
 
@@ -189,7 +207,7 @@ FUSED = Quantity(
     "magma_r",
     span=(0.0, 0.88),
     low=0.0,
-    about="Score and strength: bright is cheap",
+    about="Score and strength (cost): bright is cheap",
     word="score and strength cost",
 )
 ADDED = Quantity(
@@ -197,7 +215,7 @@ ADDED = Quantity(
     "magma_r",
     span=(0.0, 0.88),
     low=0.0,
-    about="Clear sky and sky model: bright is cheap",
+    about="Clear sky and sky model (cost): bright is cheap",
     group="terms",
     word="clear sky and sky model cost",
 )
@@ -209,7 +227,7 @@ FORWARD = Quantity(
     span=(0.0, 0.88),
     contrast=0.5,
     low=0.0,
-    about="Forward table: dearer than the cheapest way to its column",
+    about="Forward table (cost): dearer than the cheapest way to its column",
     group="search",
     tabs=("Search",),
     word="way from the left dearer by",
@@ -218,7 +236,7 @@ BACK = Quantity(
     "back",
     "blue_red",
     unit=" rows",
-    about="Back pointers: blue comes from above, red from below",
+    about="Back pointers (rows): blue comes from above, red from below",
     group="search",
     tabs=("Search",),
     word="comes from",
@@ -244,7 +262,7 @@ def of_term(name: str) -> Quantity:
         name,
         "magma_r",
         span=(0.0, 0.88),
-        about=f"{name.capitalize()}: bright is cheap",
+        about=f"{name.capitalize()} (cost): bright is cheap",
         group="terms",
         tabs=("Terms",),
         word=f"{name} costs",

@@ -24,6 +24,14 @@ def test_a_colour_map_is_the_one_of_its_name(ours):
     assert np.abs(colour_map(ours) - wanted).max() <= 2
 
 
+def test_of_scores_red_is_the_brightest_and_blue_the_darkest():
+    grey = colour_map("blue_grey_red").astype(float) @ (0.2126, 0.7152, 0.0722)
+    low, middle, high = grey[0], grey[128], colour_map("blue_grey_red")[255].max()
+    assert low < middle < high
+    assert colour_map("blue_grey_red")[0].argmax() == 2
+    assert colour_map("blue_grey_red")[255].argmax() == 0
+
+
 def test_values_beyond_the_ends_take_the_colour_of_the_end():
     table = colour_map("viridis")
     found = coloured("viridis", np.array([[-0.5, 0.0], [1.0, 7.0]]))

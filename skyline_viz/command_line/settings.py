@@ -24,6 +24,8 @@ BankFile: TypeAlias = Annotated[Path | None, tyro.conf.arg(metavar="FILE")]
 Switch: TypeAlias = tyro.conf.FlagCreatePairsOff[bool]
 """Off unless it is named."""
 
+_SIDES = (320, 8192)  # of a window, in pixels
+
 
 def check_picture(path: Path | None) -> None:
     """Refuse a file for a picture that would be of no known kind.
@@ -33,3 +35,21 @@ def check_picture(path: Path | None) -> None:
     """
     if path is not None and path.suffix.lower() not in (".png", ".jpg"):
         raise UsageError(f"pictures are PNG or JPEG, so {path} should end in .png or .jpg.")
+
+
+def window_size(text: str) -> tuple[int, int]:
+    """Width and height of a window, in pixels.
+
+    >>> window_size("1920x1080")
+    (1920, 1080)
+
+    Raises:
+        UsageError: It is none that a viewer's window can have.
+    """
+    sides = [int(part) if part.isdecimal() else 0 for part in text.lower().split("x")]
+    if len(sides) != 2 or not all(_SIDES[0] <= side <= _SIDES[1] for side in sides):
+        raise UsageError(
+            f"--screenshot-size is WIDTHxHEIGHT, each from {_SIDES[0]} to {_SIDES[1]} pixels, "
+            f"such as 1920x1080, not {text}."
+        )
+    return sides[0], sides[1]

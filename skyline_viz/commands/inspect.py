@@ -29,6 +29,7 @@ from skyline_viz.command_line.settings import (
     OptionalFolder,
     Switch,
     check_picture,
+    window_size,
 )
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee, pixels_of
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
@@ -73,6 +74,9 @@ class Inspect:
 
     screenshot: Annotated[Path | None, tyro.conf.arg(metavar="FILE.png")] = None
     """Draw every tab into FILE-TAB.png (or .jpg) instead of opening the viewer; needs no screen."""
+
+    screenshot_size: Annotated[str, tyro.conf.arg(metavar="WIDTHxHEIGHT")] = "1280x800"
+    """Size of the viewer's window for --screenshot, in pixels."""
 
     serve: Switch = False
     """Serve the viewer to a browser on this machine, until Ctrl-C."""
@@ -161,6 +165,7 @@ class Inspect:
     def _check_targets(self) -> None:
         check_picture(self.screenshot)
         check_report(self.report)
+        window_size(self.screenshot_size)
         if self.sweep_training and not self.sweep:
             raise UsageError("--sweep-training trains filters for --sweep, which is not asked for.")
         named = ("save", "screenshot", "serve", "connect", "headless", "report")
@@ -294,7 +299,8 @@ class Inspect:
             diagnosis = inspect_more.log_diagnosis(recording, found, truth, one.name)
         if alone:
             recording.disable_timeline("column")
-            log_along_columns(recording, found, truth)
+            openings = inspect_more.openings_of(sweeps)
+            log_along_columns(recording, found, truth, openings)
         if sweeps and ours:
             inspect_more.log_sweeps(recording, sweeps, ours, truth)
         error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
@@ -355,9 +361,10 @@ class Inspect:
         elif self.save:
             tell(f"Look at it with: rerun {self.save}")
         elif self.screenshot:
+            window = window_size(self.screenshot_size)
             for file in files:
                 several = f"-{file.stem}" if len(files) > 1 else ""
-                for picture in viewer.save_pictures(file, self.screenshot, several):
+                for picture in viewer.save_pictures(file, self.screenshot, several, window):
                     tell(str(picture))
         elif self.connect:
             viewer.send(files, self.connect)

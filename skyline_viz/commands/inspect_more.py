@@ -85,9 +85,16 @@ def begin_sweeps(
         sweeps.append(size_sweep(found, sizes))
     else:
         tell("The filter size is not swept: name a data set to train on with --sweep-training.")
-    for sweep in sweeps:
-        recording.set_time(sweep.timeline, sequence=sweep.steps[0].at)
+    for timeline, at in openings_of(sweeps).items():
+        recording.set_time(timeline, sequence=at)
     return sweeps
+
+
+def openings_of(sweeps: Sequence[Sweep]) -> dict[str, int]:
+    """Where the timeline of each sweep begins, by its name."""
+    from skyline_viz.viewer.sweep_recording import opening_of
+
+    return {sweep.timeline: opening_of(sweep) for sweep in sweeps}
 
 
 def log_sweeps(

@@ -150,7 +150,7 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
         titles: tuple[str, ...] = ()
         if truth is not None and verdict.a_err is not None:  # it is visible somewhere
             diagnosis = diagnose(detection, truth)
-            log_diagnosis(recording, diagnosis, detection, truth, task.name, fidelity="lean")
+            log_diagnosis(recording, diagnosis, detection, truth, task.name)
             causes, titles = diagnosis.causes, diagnosis.titles
         against: dict[str, Any] = {}
         if other is not None:

@@ -7,7 +7,8 @@ changes from every program of this machine.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 
 _DATASET = "photos"
 _TABLE = "gallery"
+_MOST_LAYOUTS = 12  # that are made for single sizes
 
 
 @dataclass
@@ -54,7 +56,7 @@ class ServedGallery:
     flags: dict[str, Flag]
     """What the table says about reviews and comments."""
 
-    _photos: Any = field(repr=False)
+    _photos: Mapping[str, Any] = field(repr=False)  # the data set of each
     _table: Any = field(repr=False)
     _client: Any = field(repr=False)  # the server forgets its tables when it is dropped
 
@@ -93,17 +95,24 @@ def served(
         ViewerError: This version of Rerun has no cards.
     """
     parts = card_parts()
-    files = [gallery.recording(entry.name) for entry in entries]
+    shapes = by_shape(entries)
+    files = {
+        dataset: [gallery.recording(entry.name) for entry in alike]
+        for dataset, alike in shapes.items()
+    }
     flags = read_flags(gallery.folder)
     with (
         passing_temporaries() as folder,
-        parts.server.Server(host=LOOPBACK, port=free_port(), datasets={_DATASET: files}) as server,
+        parts.server.Server(host=LOOPBACK, port=free_port(), datasets=files) as server,
     ):
         client = server.client()
-        photos = client.get_dataset(_DATASET)
-        layout = folder / "stages.rbl"
-        detection_blueprint(contents_of(entries, truth)).save(APPLICATION, layout)
-        photos.register_blueprint(layout.as_uri())
+        photos: dict[str, Any] = {}
+        for dataset, alike in shapes.items():
+            layout = folder / f"{dataset}.rbl"
+            detection_blueprint(contents_of(alike, truth)).save(APPLICATION, layout)
+            held = client.get_dataset(dataset)
+            held.register_blueprint(layout.as_uri())
+            photos |= {entry.name: held for entry in alike}
         table = client.create_table(_TABLE, _schema(parts.index))
         table.append(**_columns(entries, flags, photos))
         cards = folder / "cards.rbl"
@@ -115,12 +124,32 @@ def served(
         yield ServedGallery(address, gallery, entries, flags, photos, table, client)
 
 
-def contents_of(entries: Sequence[Entry], truth: bool) -> Contents:
-    """What the recordings of a gallery hold: one layout shows them all.
+def by_shape(entries: Sequence[Entry]) -> dict[str, list[Entry]]:
+    """Photos of one size together, by the name of their data set in the viewer.
+
+    The server knows one layout a data set, and a panorama wants another one than a square. Where
+    there are many sizes, it is photos of about one shape that are together.
 
     Args:
-        entries: The photos, in the order in which they are shown. The layout is made for the shape
-            of the first; where others have another size, views fit themselves to each.
+        entries: The photos, in any order, which stays.
+    """
+    few = len({(entry.height, entry.width) for entry in entries}) <= _MOST_LAYOUTS
+    found: dict[Any, list[Entry]] = {}
+    for entry in entries:
+        shape = round(2 * math.log2(entry.width / entry.height))
+        found.setdefault((entry.height, entry.width) if few else shape, []).append(entry)
+    return {
+        _DATASET + (f"-{number}" if number > 1 else ""): alike
+        for number, alike in enumerate(found.values(), 1)
+    }
+
+
+def contents_of(entries: Sequence[Entry], truth: bool) -> Contents:
+    """What recordings of a gallery hold: one layout shows them.
+
+    Args:
+        entries: The photos, all of about one shape, see `by_shape`. Where they have several sizes,
+            views fit themselves to each.
         truth: Whether there is a truth for any of them.
     """
     first = entries[0]
@@ -130,12 +159,12 @@ def contents_of(entries: Sequence[Entry], truth: bool) -> Contents:
         one_size=all((one.height, one.width) == (first.height, first.width) for one in entries),
         truth=truth,
         bank=False,
+        lean=True,
         stages=first.stages,
         first=first.method,
         compared=first.compared,
         apart=LEAN if first.compared else (),
         diagnosed=any(entry.causes for entry in entries),
-        stacked_costs=False,
     )
 
 
@@ -174,13 +203,13 @@ def _schema(index: str) -> pa.Schema:
 def _columns(
     entries: Sequence[Entry],
     flags: dict[str, Flag],
-    photos: Any,  # noqa: ANN401
+    photos: Mapping[str, Any],
 ) -> dict[str, list[Any]]:
     said = [flags.get(entry.name, Flag()) for entry in entries]
     return {
         "id": [recording_id(entry.name) for entry in entries],
         "name": [shown_in_viewer(shortened(entry.name)) for entry in entries],
-        "photo": [photos.segment_url(recording_id(entry.name)) for entry in entries],
+        "photo": [photos[entry.name].segment_url(recording_id(entry.name)) for entry in entries],
         "a_err": [_rounded(one.verdict.a_err) for one in entries],
         "worst": [_worst(entry) for entry in entries],
         "difference": [_rounded(one.difference) for one in entries],

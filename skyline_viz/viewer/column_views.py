@@ -34,6 +34,7 @@ STRIP_MARGINS = (4.0, 2.0, 1.0, 0.5, 0.25)
 
 _ERROR, _MARGIN, _COST = (0xA0, 0x6E, 0x00), (0x3C, 0x7C, 0xA0), (0x7C, 0x7C, 0x7C)
 _LINK = (0xB0, 0xB0, 0xB0)
+_LEAST_SHARE = 0.01  # of what truth and path pay differently, for a term to have a curve
 _LIGHT_ERROR, _LIGHT_MARGIN, _LIGHT_COST = (  # lines are read on black, areas by their height
     (0xE6, 0xA5, 0x2A),
     (0x6F, 0xB6, 0xDC),
@@ -142,9 +143,11 @@ def log_series(
             name: np.where(truth.visible, paid - own[name], np.nan)
             for name, paid in detection.cost_model.split(rows).items()
         }
-        apart = {name: values for name, values in apart.items() if np.nansum(np.abs(values))}
+        everything = np.add.reduce(list(apart.values()))
+        sizes = {name: np.nansum(np.abs(values)) for name, values in apart.items()}
+        least = _LEAST_SHARE * sum(sizes.values())
+        apart = {name: values for name, values in apart.items() if sizes[name] > least}
         colours = {term.name: term.colour for term in detection.cost_model.terms}
-        everything = np.add.reduce([*apart.values(), np.zeros(len(rows))])
         for name, values in {**apart, "all": everything}.items():
             red, green, blue = bytes.fromhex(colours.get(name, "#FFFFFF")[1:])
             title = f"{name}: {np.nansum(values):+.1f} in all"

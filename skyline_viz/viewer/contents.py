@@ -100,9 +100,6 @@ class Contents:
     diagnosed: bool = False
     """Whether there is a diagnosis with failing segments."""
 
-    stacked_costs: bool = True
-    """Whether the picture of what path and truth pay is in it, where there is a diagnosis."""
-
     compared: str = ""
     """Name of the second detection; nothing without one."""
 

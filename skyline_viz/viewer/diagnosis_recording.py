@@ -9,16 +9,13 @@ import rerun as rr
 from skyline_viz.arrays import Int
 from skyline_viz.colours import ALTERNATIVE, HALO
 from skyline_viz.detection import Detection
-from skyline_viz.diagnosis.cost_split import split_cost
 from skyline_viz.diagnosis.counterfactual import Case
 from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment
 from skyline_viz.diagnosis.remedies import Remedy
-from skyline_viz.evaluation.stacked import stacked_columns
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.names import named_in_markdown
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import LINE_RADIUS
-from skyline_viz.viewer.contents import Fidelity
 from skyline_viz.viewer.documents import markdown_document
 
 _FRAME, _MISSED, _STARVED = (0xF5, 0xF5, 0xF5), (0xE6, 0x9F, 0x00), (0x56, 0xB4, 0xE9)
@@ -29,9 +26,6 @@ _SHORT = 45  # letters of flags that are written on the photo
 _MARKED = 70  # the marks of the truth's pixels are this part of the height above it
 _BEYOND = 8  # columns beside a segment in which the counterfactual path is drawn
 
-DEARER = "What the truth pays more than the path in each column (below 0: less)"
-"""Title of the picture of what both pay."""
-
 
 def log_diagnosis(
     recording: rr.RecordingStream,
@@ -39,7 +33,6 @@ def log_diagnosis(
     detection: Detection,
     truth: Skyline,
     name: str = "",
-    fidelity: Fidelity = "full",
     mended: tuple[Remedy, Skyline] | None = None,
 ) -> None:
     """Log a diagnosis beside its detection.
@@ -50,8 +43,6 @@ def log_diagnosis(
         detection: The detection.
         truth: The true line.
         name: Name of the photo, for the report.
-        fidelity: How much to keep; *lean* leaves the stacked costs out, whose picture takes a third
-            of a lean recording, and several times as long as the rest.
         mended: The setting that helps most, and the line with it; None where none does, or nobody
             has tried.
     """
@@ -80,15 +71,19 @@ def log_diagnosis(
         (entities.SEGMENTS, by_error[_NAMED:], None),
         (f"{entities.SEGMENTS}/largest", named, causes),
     ):
-        frames = rr.Boxes2D(
-            mins=corners[shown, :2],
-            sizes=corners[shown, 2:],
-            labels=labels,
-            colors=[_FRAME],
-            radii=[-1.0],
-            draw_order=20.0,
-        )
-        recording.log(entity, frames)
+        for place, colour, across, order in (
+            (f"{entity}/halo", HALO, 2.5, 19.0),  # a frame is to be seen on a white sky, too
+            (entity, _FRAME, 1.0, 20.0),
+        ):
+            frames = rr.Boxes2D(
+                mins=corners[shown, :2],
+                sizes=corners[shown, 2:],
+                labels=labels if place == entity else None,
+                colors=[colour],
+                radii=[-across],
+                draw_order=order,
+            )
+            recording.log(place, frames)
     for place, colour, across, order in (
         (f"{entities.COUNTERFACTUAL}/halo", HALO, LINE_RADIUS + 1, 41.0),
         (entities.COUNTERFACTUAL, ALTERNATIVE, LINE_RADIUS, 42.0),
@@ -98,14 +93,6 @@ def log_diagnosis(
     _log_truth_pixels(recording, case)
     if mended:
         _log_remedy(recording, *mended)
-    if fidelity == "lean":
-        return
-    paid = split_cost(detection, detection.skyline.rows.astype(np.int32)).terms
-    due = split_cost(detection, case.rows).terms
-    dearer = {term: due[term] - costs for term, costs in paid.items()}
-    colours = {term.name: term.colour for term in detection.cost_model.terms}
-    picture = stacked_columns({DEARER: dearer}, colours)
-    recording.log(entities.STACKED_COSTS, rr.Image(picture))
 
 
 def _said(remedy: Remedy) -> tuple[str, ...]:

@@ -44,6 +44,9 @@ METHODS = "methods"
 METHOD_LINES = "skyline/methods"
 """`METHOD_LINES`/NAME: the skyline that another method found."""
 
+METHODS_SWATCHES = "methods_swatches"
+"""Their names on the photo, each in its colour."""
+
 METHODS_TABLE = "methods_table"
 """How the methods compare on the photo, in Markdown."""
 
@@ -142,9 +145,6 @@ TRUTH_MISSED = "diagnosis/missed"
 
 TRUTH_STARVED = "diagnosis/starved"
 """Edge pixels of the truth in starved bins."""
-
-STACKED_COSTS = "diagnosis/costs"
-"""What path and truth pay in each column, stacked by stage, as a picture."""
 
 DIAGNOSIS = "diagnosis/report"
 """The diagnosis, in Markdown."""

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+import numpy as np
 import rerun as rr
 
-from skyline_viz.colours import Colour
+from skyline_viz.colours import PATH, TRUTH, Colour
 from skyline_viz.detection import Detection
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.skyline import Skyline
-from skyline_viz.system.names import named_in_markdown
+from skyline_viz.system.names import named_in_markdown, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import log_line
 from skyline_viz.viewer.contents import Fidelity
@@ -65,10 +66,28 @@ def log_methods(
         line = entities.line_of(other.method)
         log_line(recording, line, other.skyline, colour, _RADIUS)
         lines.append(_row(word, other, verdict))
+    methods = zip((one.method for one in others), COLOURS.values(), strict=False)
+    swatches = {"path": PATH, **dict(methods)}
     if truth:
         lines.append("| turquoise | truth | | | |")
+        swatches["truth"] = TRUTH
+    _log_swatches(recording, swatches, detection.edges.shape)
     text = "\n".join(lines)
     recording.log(entities.METHODS_TABLE, markdown_document(text))
+
+
+def _log_swatches(
+    recording: rr.RecordingStream, swatches: Mapping[str, Colour], shape: tuple[int, ...]
+) -> None:
+    """Write the names of lines on the photo, below each other, each in its colour."""
+    height, width = shape
+    down = height * (0.04 + 0.06 * np.arange(len(swatches)))
+    points = np.column_stack([np.full(len(down), 0.1 * width), down])
+    names = [shown_in_viewer(name) for name in swatches]
+    marks = rr.Points2D(
+        points, labels=names, colors=list(swatches.values()), radii=[-5.0], show_labels=True
+    )
+    recording.log(entities.METHODS_SWATCHES, marks)
 
 
 def _row(colour: str, detection: Detection, verdict: Verdict) -> str:

@@ -6,8 +6,8 @@ grey patch with its structure tensor, the filter, their product, and what the pi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -43,18 +43,40 @@ class _Walk:
     """Its name, ``path`` or ``truth``."""
 
     colour: Colour
-    columns: Int
-    """``(k,)`` the columns that have a pixel, the opening one first."""
 
     times: Int
-    """``(k,)`` their places on the timeline."""
+    """``(k,)`` the places on the timeline of the columns that have a pixel."""
 
     told: Sequence[Explanation]
     """``(k,)``."""
 
+    def until(self, time: int) -> _Walk:
+        """The part of it up to a place on the timeline."""
+        count = int(np.searchsorted(self.times, time, side="right"))
+        return replace(self, times=self.times[:count], told=self.told[:count])
+
+
+@dataclass(frozen=True, eq=False)
+class _When:
+    """When pixels are to be seen."""
+
+    times: Int
+    """``(m,)`` all places on the timeline of columns."""
+
+    places: Mapping[str, Int]
+    """``(m,)`` where these are on each timeline that shows them, by its name."""
+
+    def columns(self) -> list[rr.TimeColumn]:
+        """The same, as Rerun takes it."""
+        return [rr.TimeColumn(name, sequence=at) for name, at in self.places.items()]
+
 
 def log_pixels(
-    recording: rr.RecordingStream, detection: Detection, truth: Skyline | None, opening: int
+    recording: rr.RecordingStream,
+    detection: Detection,
+    truth: Skyline | None,
+    opening: int,
+    openings: Mapping[str, int],
 ) -> None:
     """Log the pixel of the path and that of the truth in every column.
 
@@ -65,6 +87,7 @@ def log_pixels(
         detection: The detection.
         truth: The true skyline.
         opening: The column at which the timeline opens: that with the largest error.
+        openings: Where other timelines begin, by name: the pixels in that column are shown there.
     """
     width = detection.edges.shape[1]
     times = np.arange(width, dtype=np.int32)
@@ -78,28 +101,43 @@ def log_pixels(
         kept = np.flatnonzero(known[every])
         columns = every[kept]
         told = explain_pixels(detection, rows[columns], columns)
-        walks.append(_Walk(line, colour, columns, times[kept], told))
+        walks.append(_Walk(line, colour, times[kept], told))
+    products = [one.filtered.product for walk in walks for one in walk.told if one.filtered]
+    most = float(np.abs(np.array(products, np.float32)).max(initial=0.0))
+    _log_walks(recording, detection, walks, _When(times, {entities.COLUMN: times}), most)
+    if openings:
+        first = times[: entities.OPENING + 1]
+        begun = {name: np.array([at], np.int32) for name, at in openings.items()}
+        walks = [walk.until(entities.OPENING) for walk in walks]
+        _log_walks(recording, detection, walks, _When(first, begun), most)
+
+
+def _log_walks(
+    recording: rr.RecordingStream,
+    detection: Detection,
+    walks: Sequence[_Walk],
+    when: _When,
+    most: float,
+) -> None:
+    """Log the pixels of all lines, their products on a scale up to `most`."""
     for walk in walks:
-        _log_points(recording, walk, times)
+        _log_points(recording, walk, when)
         filtered = [one.filtered for one in walk.told if one.filtered]
         if detection.bank is not None and len(filtered) == len(walk.told):
-            _log_frames(recording, walk, filtered, detection.bank, times)
-            _log_pictures(recording, walk, filtered, detection.bank, times)
-    words = about_pixels(detection, [(one.line, one.times, one.told) for one in walks], times)
+            _log_frames(recording, walk, filtered, detection.bank, when)
+            _log_pictures(recording, walk, filtered, detection.bank, when, most)
+    told = [(one.line, one.times, one.told) for one in walks]
+    words = about_pixels(detection, told, when.times)
     texts = rr.TextDocument.columns(text=words, media_type=["text/markdown"] * len(words))
-    recording.send_columns(entities.PIXEL_ABOUT, _at(times), texts)
+    recording.send_columns(entities.PIXEL_ABOUT, when.columns(), texts)
 
 
-def _at(times: Int) -> list[rr.TimeColumn]:
-    return [rr.TimeColumn(entities.COLUMN, sequence=times)]
-
-
-def _log_points(recording: rr.RecordingStream, walk: _Walk, times: Int) -> None:
+def _log_points(recording: rr.RecordingStream, walk: _Walk, when: _When) -> None:
     """A point on the photo, and none where the line has none."""
     entity = f"{entities.CHOSEN}/{walk.line}"
     places = [[one.column + 0.5, one.row + 0.5] for one in walk.told]
     points = rr.Points2D.columns(positions=np.array(places, np.float32).reshape(-1, 2))
-    recording.send_columns(entity, _at(times), points.partition(_lengths(walk, times)))
+    recording.send_columns(entity, when.columns(), points.partition(_lengths(walk, when.times)))
     look = rr.Points2D.from_fields(colors=[walk.colour], radii=[-5.0], draw_order=50.0)
     recording.log(entity, look, static=True)
 
@@ -109,7 +147,7 @@ def _log_frames(
     walk: _Walk,
     filtered: Sequence[Filtered],
     bank: FilterBank,
-    times: Int,
+    when: _When,
 ) -> None:
     """A frame around the filter that each pixel uses; none around that of a pixel without edge."""
     entity = f"{entities.BANK_CHOSEN}/{walk.line}"
@@ -119,9 +157,9 @@ def _log_frames(
     frames = rr.Boxes2D.columns(
         half_sizes=(boxes[:, 2:] - boxes[:, :2]) / 2 + 2, centers=(boxes[:, 2:] + boxes[:, :2]) / 2
     )
-    lengths = _lengths(walk, times)
+    lengths = _lengths(walk, when.times)
     lengths[lengths > 0] = used
-    recording.send_columns(entity, _at(times), frames.partition(lengths))
+    recording.send_columns(entity, when.columns(), frames.partition(lengths))
     look = rr.Boxes2D.from_fields(colors=[walk.colour], radii=[-2.5], draw_order=50.0)
     recording.log(entity, look, static=True)
 
@@ -131,20 +169,21 @@ def _log_pictures(
     walk: _Walk,
     filtered: Sequence[Filtered],
     bank: FilterBank,
-    times: Int,
+    when: _When,
+    most: float,
 ) -> None:
     """Patch with ellipse, filter, and product, each with its values when hovered."""
-    there = _lengths(walk, times)
+    there = _lengths(walk, when.times)
     parent, size = entities.pixel_of(walk.line), bank.size
     products = np.array([one.product for one in filtered], np.float32).reshape(-1, size, size)
-    most_tap, most = float(np.abs(bank.filters).max()), float(np.abs(products).max(initial=0.0))
+    most_tap = float(np.abs(bank.filters).max())
     for name, quantity, values in (
         ("patch", PATCH, [one.patch.astype(np.float32) for one in filtered]),
         ("filter", _two_sided("tap", most_tap), [one.taps for one in filtered]),
         ("product", _two_sided("share of the score", most), list(products)),
     ):
         low, high = quantity.low or 0.0, quantity.high or 0.0
-        classes = np.zeros((len(times), size, size), np.uint16)
+        classes = np.zeros((len(when.times), size, size), np.uint16)
         for at, one in zip(np.flatnonzero(there).tolist(), values, strict=True):
             classes[at] = classes_of(one, low, high, FINE)
         look = rr.SegmentationImage.from_fields(
@@ -156,10 +195,10 @@ def _log_pictures(
         entity = f"{parent}/{name}"
         recording.log(entity, legend(quantity, low, high, FINE), look, static=True)
         pictures = rr.SegmentationImage.columns(buffer=[one.tobytes() for one in classes])
-        recording.send_columns(entity, _at(times), pictures)
+        recording.send_columns(entity, when.columns(), pictures)
     strips = [strip for one in filtered for strip in ellipse(one, size)]
     outlines = rr.LineStrips2D.columns(strips=strips)
-    recording.send_columns(f"{parent}/ellipse", _at(times), outlines.partition(2 * there))
+    recording.send_columns(f"{parent}/ellipse", when.columns(), outlines.partition(2 * there))
     drawn = rr.LineStrips2D.from_fields(colors=[walk.colour], radii=[-1.5], draw_order=50.0)
     recording.log(f"{parent}/ellipse", drawn, static=True)
 

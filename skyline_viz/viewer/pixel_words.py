@@ -15,19 +15,25 @@ Walk = tuple[str, Int, Sequence[Explanation]]
 _NONE = "-"
 
 
-def about_pixels(detection: Detection, walks: Sequence[Walk], times: Int) -> list[str]:
+def about_pixels(
+    detection: Detection,
+    walks: Sequence[Walk],
+    times: Int,
+    opening: int | None = entities.OPENING,
+) -> list[str]:
     """A text for each place on the timeline.
 
     Args:
         detection: The detection.
         walks: The lines, that of the path first.
-        times: All places; the first one is the opening column.
+        times: All places.
+        opening: The place of the column that is the worst one; None for none.
     """
     by_time = [(line, dict(zip(there.tolist(), told, strict=True))) for line, there, told in walks]
     texts = []
     for at in times.tolist():
         pixels = {line: told[at] for line, told in by_time if at in told}
-        texts.append(_about(detection, pixels, opening=at == entities.OPENING))
+        texts.append(_about(detection, pixels, opening=at == opening))
     return texts
 
 
@@ -37,8 +43,13 @@ def _about(detection: Detection, pixels: Mapping[str, Explanation], *, opening: 
     if opening:
         head += ", the worst one: drag the *column* timeline, or click into a plot of *Columns*."
     compared = len(pixels) > 1
-    names = [*pixels, *(["truth less path"] if compared else [])]
-    lines = [head, "", f"| | {' | '.join(names)} |", f"| --- |{' ---: |' * len(names)}"]
+    names = [*pixels, *([" less ".join([*pixels][::-1])] if compared else [])]
+    lines = [head, ""]
+    for line, one in pixels.items():
+        said = [one.why_edge, *(one.filtered.why if one.filtered else ())]
+        if any(said):
+            lines += [f"**{line.capitalize()}**: {'; '.join(part for part in said if part)}.", ""]
+    lines += [f"| | {' | '.join(names)} |", f"| --- |{' ---: |' * len(names)}"]
     for title, values in _rows(pixels).items():
         lines.append(f"| {title} | {' | '.join(values + [''] * compared)} |")
     for term in [*detection.cost_model.nodal, None]:
@@ -50,10 +61,6 @@ def _about(detection: Detection, pixels: Mapping[str, Explanation], *, opening: 
             words.append(f"**{paid[1] - paid[0]:+.3f}**")
         title = f"pays for {term.name}" if term else "**nodal cost**"
         lines.append(f"| {title} | {' | '.join(words)} |")
-    for line, one in pixels.items():
-        said = [one.why_edge, *(one.filtered.why if one.filtered else ())]
-        if any(said):
-            lines += ["", f"**{line.capitalize()}**: {'; '.join(part for part in said if part)}."]
     return "\n".join(lines)
 
 

@@ -167,7 +167,10 @@ def log_detection(
 
 
 def log_along_columns(
-    recording: rr.RecordingStream, detection: Detection, truth: Skyline | None
+    recording: rr.RecordingStream,
+    detection: Detection,
+    truth: Skyline | None,
+    openings: Mapping[str, int] | None = None,
 ) -> None:
     """Log what runs along the timeline `entities.COLUMN`, which takes a recording of one photo.
 
@@ -177,10 +180,12 @@ def log_along_columns(
         recording: Where to.
         detection: The detection.
         truth: The true skyline.
+        openings: Where other timelines begin, by name; the pixels that the viewer opens with are
+            to be seen on them, too.
     """
     margins = detection.margins()
     errors = column_errors(detection.skyline, truth) if truth else None
-    log_pixels(recording, detection, truth, opening_column(errors, margins))
+    log_pixels(recording, detection, truth, opening_column(errors, margins), openings or {})
     log_series(recording, detection, margins, truth)
 
 

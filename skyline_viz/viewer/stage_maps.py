@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 import rerun as rr
 
-from skyline_viz.arrays import F32, Bool, Int
+from skyline_viz.arrays import F32, U8, Bool, Int
 from skyline_viz.colours import Colour
 from skyline_viz.detection import Detection
 from skyline_viz.path import back_pointers
@@ -21,19 +21,32 @@ from skyline_viz.skyline import Skyline
 from skyline_viz.stage import (
     ADDED,
     BACK,
+    BIN,
     DETOUR,
     FORWARD,
     FUSED,
     LINK,
+    ORIENTATION,
     OURS,
+    STRENGTH,
     Quantity,
     Stage,
     of_term,
 )
 from skyline_viz.terms import Term
 from skyline_viz.viewer import entities
+from skyline_viz.viewer.map_aids import log_broad, log_broad_edges, log_fade, log_scale
 from skyline_viz.viewer.near import Near, Sampler
-from skyline_viz.viewer.value_maps import BANDS, COARSE, FINE, dense_map, sparse_map
+from skyline_viz.viewer.value_maps import (
+    BANDS,
+    COARSE,
+    FINE,
+    ValueMap,
+    dense_map,
+    shades,
+    sparse_map,
+    value_range,
+)
 
 _RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
 
@@ -78,7 +91,9 @@ def log_maps(
             continue  # the cost has it in it
         entity = at(entities.of_quantity(stage.quantity))
         if stage.where == "mask":
-            recording.log(entity, encoded_edges(np.asarray(stage.values, np.bool_)))
+            edges = np.asarray(stage.values, np.bool_)
+            recording.log(entity, encoded_edges(edges))
+            log_broad_edges(recording, entity, edges)
         elif near and (stage.where == "photo" or stage.dense):
             quantity, sampled = stage.quantity, near.sample(_sampler(stage))
             if not quantity.smooth:
@@ -86,13 +101,18 @@ def log_maps(
                 table[name] = values[kept] if stage.where == "edges" else values
             del stage
             near.log(recording, entity, quantity, sampled)
+            if quantity == STRENGTH:
+                _log_fade(recording, at(entities.ORIENTATION), near.map(quantity, sampled, COARSE))
         elif stage.where == "photo" and stage.quantity.smooth:  # whole even if lean
             levels = FINE if shown is None else BANDS
             dense_map(stage.quantity, stage.values, levels).log(recording, entity)
         elif stage.where in ("edges", "photo"):
             values = stage.values[kept] if stage.where == "edges" else stage.values[rows, columns]
             table[name] = values
-            _log_stage(recording, entity, stage, values, (shape, rows, columns), exact=full)
+            dense = _log_stage(recording, entity, stage, values, (shape, rows, columns), exact=full)
+            if dense is not None and stage.quantity == STRENGTH:
+                veil = dense_map(STRENGTH, dense, COARSE)
+                _log_fade(recording, at(entities.ORIENTATION), veil)
     if full:
         recording.log(at(entities.EDGE_PIXELS), rr.AnyValues(True, **table))
         log_terms(recording, at, detection, near)
@@ -117,22 +137,39 @@ def _log_stage(
     places: tuple[tuple[int, ...], Int, Int],
     *,
     exact: bool,
-) -> None:
-    """Log a stage with its values at some edge pixels; if exact also of all others it has."""
+) -> npt.NDArray[Any] | None:
+    """Log a stage with its values at some edge pixels; if exact also of all others it has.
+
+    Returns:
+        The values of all pixels, if it has them.
+    """
     shape, rows, columns = places
     if stage.legend:
         classes = np.zeros(shape, np.uint16)
         classes[rows, columns] = values + 1
         recording.log(entity, _words(stage.legend), rr.SegmentationImage(classes))
-        return
+        colours, index = np.unique([one for _, one in stage.legend], axis=0, return_inverse=True)
+        table: U8 = np.concatenate([[0], 1 + np.ravel(index)]).astype(np.uint8)
+        log_broad(recording, entity, table[classes], colours.astype(np.uint8))
+        if stage.quantity == BIN:
+            hues = shades(ORIENTATION, COARSE)
+            log_scale(recording, entity, shape, hues, value_range(ORIENTATION))
+        return None
     dense = stage.map() if exact else None
     if dense is not None:
         log_exact_map(recording, entity, stage.quantity, dense)
-        return
+        return dense
     height, width = shape
     levels = FINE if exact else COARSE
     sparse = sparse_map(stage.quantity, (height, width), rows, columns, values, levels)
     sparse.log(recording, entity)
+    return None
+
+
+def _log_fade(recording: rr.RecordingStream, entity: str, strength: ValueMap) -> None:
+    """Fade the map of orientations where the gradient is weak."""
+    steps = np.linspace(strength.low, strength.high, strength.levels)
+    log_fade(recording, entity, strength.classes, np.concatenate([[strength.high], steps]))
 
 
 def log_terms(
@@ -247,7 +284,7 @@ def log_detour(
     rows, columns = detection.edge_rows[kept], detection.edge_columns[kept]
     values = detour[rows, columns]
     sparse = sparse_map(DETOUR, detection.edges.shape, rows, columns, values, COARSE)
-    sparse.log(recording, at(entities.DETOUR))
+    sparse.log(recording, at(entities.DETOUR), aids=False)  # no tab of a lean recording shows it
 
 
 def log_exact_map(

@@ -49,6 +49,15 @@ class _Outcome:
         return self.apart if self.verdict.a_err is None else self.verdict.a_err
 
 
+def opening_of(sweep: Sweep) -> int:
+    """Where the timeline of a sweep begins, and the viewer opens it.
+
+    It is 0, which shows the present value, in front of the others; or the first of these where
+    that is 0.
+    """
+    return min(entities.OPENING, sweep.steps[0].at)
+
+
 def log_sweeps(
     recording: rr.RecordingStream,
     sweeps: Sequence[Sweep],
@@ -58,8 +67,9 @@ def log_sweeps(
 ) -> None:
     """Detect with each value of each sweep, and log paths, edges, costs, errors and reports.
 
-    On the timelines `entities.IMAGE` and `entities.COLUMN`, which hold no sweep, the same entities
-    show the present path and the table of all settings.
+    On the timelines `entities.IMAGE` and `entities.COLUMN`, which hold no sweep, and where that of
+    a setting opens before its values, see `opening_of`, the same entities show the present path and
+    the table of all settings.
 
     Args:
         recording: Where to; afterwards it is at no time at all.
@@ -77,11 +87,6 @@ def log_sweeps(
     outcomes = {}
     for sweep in sweeps:
         recording.reset_time()
-        recording.set_time(sweep.timeline, sequence=sweep.steps[0].at)
-        recording.log(
-            entities.PIXEL_ABOUT,
-            markdown_document(f"Choose the timeline *{entities.COLUMN}* below, and drag it."),
-        )
         outcomes[sweep.timeline] = _log_sweep(recording, sweep, found, truth, advance)
     now = Verdict.of(found.skyline, found.margins(), len(found.photo), truth)
     summary = _summary(sweeps, outcomes, now)
@@ -95,6 +100,9 @@ def log_sweeps(
     recording.reset_time()
     recording.set_time(entities.IMAGE, sequence=0)
     recording.set_time(entities.COLUMN, sequence=0)
+    for sweep in sweeps:
+        if opening_of(sweep) < sweep.steps[0].at:
+            recording.set_time(sweep.timeline, sequence=opening_of(sweep))
     _log_stages(recording, found, truth, None)
     words = (
         f"**The present settings**\n\nChoose a setting's timeline below, and drag it.\n\n{summary}"

@@ -17,15 +17,17 @@ import numpy.typing as npt
 import pyarrow as pa
 import rerun as rr
 
-from skyline_viz.arrays import Int
+from skyline_viz.arrays import U8, Int
 from skyline_viz.colours import coloured
 from skyline_viz.stage import Quantity
+from skyline_viz.viewer.map_aids import log_broad, log_scale
 
 COARSE, FINE = 255, 4095
 """Values that a map tells apart: one byte a pixel in lean recordings, two in full ones."""
 
 BANDS = 21
-"""Values of a smooth map in lean recordings: bands of equal pixels take a third of the bytes."""
+"""Values of a smooth map in lean recordings, and of what is broadened: bands of equal pixels take a
+third of the bytes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,13 +54,29 @@ class ValueMap:
         step = (self.high - self.low) / (self.levels - 1)
         return np.where(self.classes > 0, self.low + (self.classes - 1.0) * step, np.nan)
 
-    def log(self, recording: rr.RecordingStream, entity: str) -> None:
-        """Log the map and what its classes mean."""
-        recording.log(
-            entity,
-            legend(self.quantity, self.low, self.high, self.levels),
-            _image(self.classes),
-        )
+    def log(self, recording: rr.RecordingStream, entity: str, *, aids: bool = True) -> None:
+        """Log the map and what its classes mean.
+
+        Args:
+            recording: Where to.
+            entity: Entity path of the map.
+            aids: Whether to log what helps to read it, too, see `map_aids`.
+        """
+        means = legend(self.quantity, self.low, self.high, self.levels)
+        recording.log(entity, means, _image(self.classes))
+        if not aids:
+            return
+        few = shades(self.quantity, BANDS)
+        log_broad(recording, entity, self._bands(), few, lowest=self.quantity.low_is_bright)
+        colours, ends = shades(self.quantity, COARSE), (self.low, self.high)
+        log_scale(recording, entity, self.classes.shape, colours, ends)
+
+    def _bands(self) -> U8:
+        """The classes in `BANDS` levels: nobody reads values of what is broadened."""
+        levels = np.arange(self.levels) * (BANDS - 1) / (self.levels - 1)
+        table: U8 = np.concatenate([[0], np.rint(1 + levels)]).astype(np.uint8)
+        bands: U8 = table[self.classes]
+        return bands
 
 
 def _image(classes: npt.NDArray[np.unsignedinteger[Any]]) -> rr.SegmentationImage:
@@ -156,9 +174,7 @@ def legend(quantity: Quantity, low: float, high: float, levels: int) -> rr.Annot
         levels: Number of levels.
     """
     step = (high - low) / (levels - 1)
-    first, last = quantity.span
-    places = first + (last - first) * np.linspace(0, 1, levels) ** quantity.contrast
-    colours = coloured(quantity.colour_map, places)
+    colours = shades(quantity, levels)
     return rr.AnnotationContext(
         [
             rr.AnnotationInfo(0, "", (0, 0, 0, 0)),
@@ -170,3 +186,10 @@ def legend(quantity: Quantity, low: float, high: float, levels: int) -> rr.Annot
             ),
         ]
     )
+
+
+def shades(quantity: Quantity, levels: int) -> U8:
+    """Colours ``(levels, 3)`` of so many values, evenly from the first to the last."""
+    first, last = quantity.span
+    places = first + (last - first) * np.linspace(0, 1, levels) ** quantity.contrast
+    return coloured(quantity.colour_map, places)

@@ -8,6 +8,7 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.cli import main
+from skyline_viz.diagnosis.explanation import explain_pixel
 from skyline_viz.tensor import tensor_map
 from skyline_viz.viewer.blueprints import TABS
 from skyline_viz.viewer.program.process import (
@@ -89,19 +90,18 @@ def test_hovering_a_pixel_tells_its_value_and_unit(viewer):
     assert shown == pytest.approx(strength[row, column], abs=float(strength.max()) / 4000)
 
 
-def test_the_column_timeline_frames_the_filter_that_the_path_used(viewer):
-    show_tab(viewer, "Filter bank")
+def test_the_column_timeline_tells_the_pixel_of_the_path(viewer):
+    show_tab(viewer, "Pixel")
     detection = sv.Detector().detect(sv.read_photo(SAMPLES / "images" / "hazy-1.jpg"))
     for column in (100, 700):
         row = int(detection.skyline.rows[column])
-        here = (detection.edge_rows == row) & (detection.edge_columns == column)
+        told = explain_pixel(detection, row, column)
         viewer.set_time("column", sequence=column, play_state="paused")
         settled_picture(viewer)
         with Robot(viewer_port()) as robot:
-            words = until(lambda robot=robot, column=column: robot.says(f"Column {column}"))
-            assert words
-            expected = f"Bin {detection.bins[here][0]}:" if here.any() else "no edge"
-            assert robot.says(expected)
+            assert until(lambda robot=robot, column=column: robot.says(f"Column {column}"))
+            assert robot.says(str(told.filtered.bin))
+            assert robot.says(told.why_edge)
 
 
 def test_scrubbing_a_setting_moves_the_path(tmp_path):
@@ -113,7 +113,11 @@ def test_scrubbing_a_setting_moves_the_path(tmp_path):
     others = {port for _, _, port in listening()}
     with headless_viewer([file]) as client, Robot(viewer_port(others)) as robot:
         assert tab_names(client) == [*TABS, "Diagnosis", "Sweep"]
+        show_tab(client, "Pixel")
+        settled_picture(client)
+        assert until(lambda: robot.says("the worst one"))  # of the worst column, on any timeline
         show_tab(client, "Sweep")
+        assert until(lambda: robot.says("The present settings"))  # it opens with them
         pictures, yellow = [], []
         for setting, at, said in (
             ("canny_thresholds", 40, "Canny thresholds 6 and 26.4"),

@@ -81,7 +81,7 @@ def test_the_viewer_shows_it(found, tmp_path):
         log_sweeps(recording, sweeps, found, truth)
     read = Read(tmp_path / "a.rrd")
     assert read.array("terms/depth", "SegmentationImage:buffer").any()
-    assert "Depth: bright is cheap" in read.view_names
+    assert "Depth (cost): bright is cheap" in read.view_names
     assert len(read.on("depth", "sweep/path", "strips")) == len(sweeps[0].steps)
 
 

@@ -28,7 +28,7 @@ def truth():
 def read(found, truth, tmp_path_factory):
     path = tmp_path_factory.mktemp("pixels") / "a.rrd"
     with sv.new_recording(path, "a") as recording:
-        log_pixels(recording, found, truth, opening=31)
+        log_pixels(recording, found, truth, 31, {})
     return Read(path)
 
 
@@ -91,7 +91,7 @@ def test_an_ellipse_points_along_the_gradient_and_its_axes_are_those_of_the_tens
 def test_methods_without_a_bank_show_points_and_words_alone(tmp_path):
     photo, truth = scene()
     with sv.new_recording(tmp_path / "a.rrd", "a") as recording:
-        log_pixels(recording, sv.find_method("gradient").detect(photo), truth, opening=0)
+        log_pixels(recording, sv.find_method("gradient").detect(photo), truth, 0, {})
     read = Read(tmp_path / "a.rrd")
     assert entities.PIXEL_ABOUT in read.entities()
     assert not any(one.startswith(entities.pixel_of("path")) for one in read.entities())

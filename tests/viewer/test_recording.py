@@ -221,11 +221,11 @@ def test_a_lean_recording_of_rough_terrain_is_small(tmp_path):
     read, _ = record(tmp_path / "a.rrd", detection, truth, fidelity="lean")
     photo_bytes = len(read.last(entities.PHOTO, "blob").as_py()[0])
     maps = (tmp_path / "a.rrd").stat().st_size - photo_bytes
-    assert maps < 550_000  # white noise; the texture of photographs takes less
+    assert maps < 750_000  # white noise, with what is broadened; photographs take less
 
 
 def test_the_tabs_are_those_of_the_docs(full):
-    assert set(TABS) <= full.view_names
+    assert {*TABS} - {"Pixel"} <= full.view_names  # its own is a single photo's
     told = re.findall(r"\([a-z]\) [a-z ]+", (ROOT / "docs" / "inspect.md").read_text())
     shown = sorted(name for name in full.view_names if re.match(r"\([a-z]\) ", name))
     assert len(told) == len(shown) > 1

@@ -6,7 +6,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.diagnosis.sweep import setting_sweeps, size_sweep
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.sweep_recording import log_sweeps
+from skyline_viz.viewer.sweep_recording import log_sweeps, opening_of
 from testing.recordings import Read, banks_of_sizes, drawn_rows, scene, verify, visible_rows
 
 
@@ -36,7 +36,8 @@ def test_each_timeline_holds_the_path_of_each_value(read, found):
     recorded, sweeps = read
     for sweep in sweeps:
         lines = recorded.on(sweep.timeline, entities.SWEEP_PATH, "strips")
-        assert sorted(lines) == [step.at for step in sweep.steps]
+        values = [step.at for step in sweep.steps]
+        assert sorted(lines) == sorted({opening_of(sweep), *values})
         for step, detection in sweep.detections(found[0]):
             line = drawn_rows(lines[step.at], detection.skyline.width)
             np.testing.assert_array_equal(line, visible_rows(detection.skyline))
@@ -63,14 +64,15 @@ def test_maps_are_logged_where_they_change_only(read):
     for sweep in sweeps:
         edges = recorded.on(sweep.timeline, entities.SWEEP_EDGES, "blob")
         costs = recorded.on(sweep.timeline, entities.SWEEP_COST, "buffer")
-        every = [step.at for step in sweep.steps]
+        every = sorted({opening_of(sweep), *(step.at for step in sweep.steps)})
+        first = every[:1] if every[0] == sweep.steps[0].at else every[:2]  # 0 is the present one
         if sweep.timeline == "sky_weight":  # without the model no edges are sought either
             assert every[0] == 0
             assert sorted(edges) in (every[:1], every[:2])
         else:
-            assert sorted(edges) == (every if sweep.timeline == "canny_thresholds" else every[:1])
+            assert sorted(edges) == (every if sweep.timeline == "canny_thresholds" else first)
         path_only = sweep.timeline in ("delta", "link_weight")
-        assert sorted(costs) == (every[:1] if path_only else every)
+        assert sorted(costs) == (first if path_only else every)
 
 
 def test_timelines_without_a_sweep_show_the_present_path(read, found):

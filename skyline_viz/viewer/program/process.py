@@ -142,13 +142,16 @@ def save_picture(source: str | Path, path: Path, window: tuple[int, int] = WINDO
     _save(picture, path)
 
 
-def save_pictures(source: Path, path: Path, more: str = "") -> Iterator[Path]:
+def save_pictures(
+    source: Path, path: Path, more: str = "", window: tuple[int, int] = WINDOW
+) -> Iterator[Path]:
     """Render every tab of a recording into a file of its own, ``NAME-TAB.png`` or ``.jpg``.
 
     Args:
         source: Recording file.
         path: Where to, without the tab.
         more: What comes before the tab in the names.
+        window: Width and height of the viewer's window, in pixels; pictures lack its own bar.
 
     Yields:
         The files as they are written.
@@ -156,7 +159,7 @@ def save_pictures(source: Path, path: Path, more: str = "") -> Iterator[Path]:
     Raises:
         ViewerError: No viewer, or a picture stays blank.
     """
-    with headless_viewer([source]) as client:
+    with headless_viewer([source], window) as client:
         _hide_menu(client)
         for tab in tab_names(client):
             show_tab(client, tab)

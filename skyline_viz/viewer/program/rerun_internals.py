@@ -74,7 +74,10 @@ TABLES = Part(
 )
 SERVER = Part("rerun", "server", TABLES.without)
 TABLE_INDEX = Part("rerun", "SORBET_IS_TABLE_INDEX", TABLES.without)
-PARTS = (ORPHANS, PROGRAM, CLIENT, TABLES, SERVER, TABLE_INDEX)
+WIDGET = Part(
+    "rerun.notebook", "_Viewer", "notebooks show no viewer; inspect --serve shows one in a browser"
+)
+PARTS = (ORPHANS, PROGRAM, CLIENT, TABLES, SERVER, TABLE_INDEX, WIDGET)
 """All of them."""
 
 _IN_BROWSERS = (b"class WebHandle", b"open_channel(", b"send_rrd_to_channel(", b"close_channel(")
@@ -114,6 +117,22 @@ def viewer_client() -> type[ViewerClient]:
     """
     client: type[ViewerClient] = CLIENT.take()
     return client
+
+
+def notebook_widget(viewer: Any) -> Any:  # noqa: ANN401
+    """The widget of a viewer in a notebook, to lay others beside it.
+
+    Args:
+        viewer: A `rerun.notebook.Viewer`.
+
+    Raises:
+        ViewerError: It has none.
+    """
+    kind = WIDGET.take()
+    for held in vars(viewer).values():
+        if isinstance(held, kind):
+            return held
+    raise ViewerError(WIDGET.lacking)
 
 
 @dataclass(frozen=True)

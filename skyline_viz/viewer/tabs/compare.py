@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
-import rerun as rr
 import rerun.blueprint as rrb
 
 from skyline_viz.stage import EDGES, Quantity
@@ -13,9 +12,8 @@ from skyline_viz.system.names import shortened, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
 from skyline_viz.viewer.entities import below
+from skyline_viz.viewer.tabs.views import lines_of, map_view, photo_view
 
-_BLACK = (12, 12, 12)
-_THIN = 0.6  # half the width of a line on a map, in points of the screen
 _MOST = 24  # characters of a name in a title
 _WIDE = 1.6  # columns to a row from which on a photo is a panorama
 _LEFT = (800.0, 700.0)  # width and height of the part of a window that has pictures, in points
@@ -28,11 +26,11 @@ def compare_tab(contents: Contents) -> rrb.Container:
     first, second = (shortened(one, _MOST) for one in (contents.first, contents.compared))
     truth = ", turquoise: truth" if contents.truth else ""
     lines = [entities.PATH, entities.ALTERNATIVE, *([entities.TRUTH] if contents.truth else [])]
-    photo = _view(
+    photo = photo_view(
         f"Magenta: {first}, yellow: {second}{truth}",
         [entities.PHOTO, *(f"{line}/**" for line in lines)],
     )
-    maps = [_difference(one, lines) for one in contents.apart]
+    maps = [_difference(contents, one, lines) for one in contents.apart]
     text = rrb.TextDocumentView(origin=entities.COMPARISON, name="Where they part")
     shape = contents.width / contents.height
     if not maps:
@@ -47,7 +45,7 @@ def compare_tab(contents: Contents) -> rrb.Container:
 
 def side_by_side_tab(contents: Contents) -> rrb.Container:
     """The stages of both detections, each beside that of the other."""
-    views = []
+    views, truth = [], lines_of(contents)[1:]
     first, second = (shortened(one, _MOST) for one in (contents.first, contents.compared))
     both = dict.fromkeys([*contents.stages, *contents.compared_stages])
     stages = [one for one in both if "Stages" in one.tabs and one.group != "tensor"]
@@ -58,10 +56,12 @@ def side_by_side_tab(contents: Contents) -> rrb.Container:
             second if one in contents.compared_stages else f"{second} has none",
         )
         views += [
-            _view(f"{title}: {names[0]}", [stage, f"{entities.PATH}/**"]),
-            _view(
+            map_view(contents, f"{title}: {names[0]}", [stage], [entities.PATH, *truth]),
+            map_view(
+                contents,
                 f"{title}: {names[1]}",
-                [below(entities.OTHER, stage), f"{entities.ALTERNATIVE}/**"],
+                [below(entities.OTHER, stage)],
+                [entities.ALTERNATIVE, *truth],
             ),
         ]
     reports = [
@@ -85,22 +85,10 @@ def side_by_side_tab(contents: Contents) -> rrb.Container:
     return rrb.Vertical(*rows, name="Side by side")
 
 
-def _difference(one: Quantity, lines: Sequence[str]) -> rrb.View:
-    """A map of what the second has more, with both lines on it, so thin that it stays in sight.
-
-    Its title is short: of many maps each has little room. The document beside them has the legend.
-    """
-    title = one.title if one.high is None else f"{one.title} ±{one.high:g}{one.unit}"
-    if one.name == EDGES.name:
-        title = "Edges of one alone"
-    thin = rr.LineStrips2D.from_fields(radii=[-_THIN]).visualizer()
-    return rrb.Spatial2DView(
-        origin="/",
-        contents=[f"+ /{entity}" for entity in (entities.of_quantity(one), *lines)],
-        name=shown_in_viewer(title),
-        background=_BLACK,
-        overrides={f"/{line}": thin for line in lines},
-    )
+def _difference(contents: Contents, one: Quantity, lines: Sequence[str]) -> rrb.View:
+    """A map of what the second has more. Its title is short: of many maps each has little room."""
+    title = "Edges of one alone" if one.name == EDGES.name else one.title
+    return map_view(contents, title, [entities.of_quantity(one)], lines)
 
 
 def _in_rows(views: Sequence[rrb.View], shape: float, room: tuple[float, float]) -> rrb.Container:
@@ -119,12 +107,3 @@ def _in_rows(views: Sequence[rrb.View], shape: float, room: tuple[float, float])
 
     rows = np.array_split(np.arange(count), max(range(1, count + 1), key=size))
     return rrb.Vertical(*(rrb.Horizontal(*(views[at] for at in row)) for row in rows))
-
-
-def _view(title: str, shown: Iterable[str]) -> rrb.View:
-    return rrb.Spatial2DView(
-        origin="/",
-        contents=[f"+ /{entity}" for entity in shown],
-        name=shown_in_viewer(title),
-        background=_BLACK,
-    )
