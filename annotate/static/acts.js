@@ -1,14 +1,14 @@
 /** Everything that a key or a button does, by name. */
 
-import { stagesAddress } from "./api.js";
-import { box, button, input } from "./dom.js";
+import { box, button, input } from "./basics/dom.js";
+import { stagesAddress } from "./server/api.js";
 
-/** @import { Actions } from "./actions.js" */
-/** @import { Labelling } from "./labelling.js" */
-/** @import { lineActions } from "./line_actions.js" */
-/** @import { Overlay } from "./overlay.js" */
-/** @import { Sheet } from "./sheet.js" */
-/** @import { Toolbar } from "./toolbar.js" */
+/** @import { Actions } from "./around/actions.js" */
+/** @import { Labelling } from "./labelled/labelling.js" */
+/** @import { lineActions } from "./gestures/line_actions.js" */
+/** @import { Overlay } from "./around/overlay.js" */
+/** @import { Sheet } from "./around/sheet.js" */
+/** @import { Toolbar } from "./around/toolbar.js" */
 /** @import { Status } from "./types.js" */
 
 /**

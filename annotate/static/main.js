@@ -5,28 +5,28 @@
  * the `Queue`, which sends it until the server has kept it. The answer is told as `document`, and drawn.
  */
 
-import { Actions } from "./actions.js";
 import { makeActs } from "./acts.js";
-import { signIn } from "./api.js";
-import { begin } from "./begin.js";
-import { learn, prepare, showHelp, showMore, welcome } from "./dialogs.js";
-import { around, box, button, canvas } from "./dom.js";
-import { Header } from "./header.js";
+import { Actions } from "./around/actions.js";
+import { begin } from "./around/begin.js";
+import { learn, prepare, showHelp, showMore, welcome } from "./around/dialogs.js";
+import { Header } from "./around/header.js";
+import { Messages } from "./around/messages.js";
+import { Overlay } from "./around/overlay.js";
+import { PhotoList } from "./around/photo_list.js";
+import { Sheet } from "./around/sheet.js";
+import { Toolbar } from "./around/toolbar.js";
+import { around, box, button, canvas } from "./basics/dom.js";
+import { restoreTheme, turnTheme } from "./basics/theme.js";
+import { Stage } from "./drawn/stage.js";
+import { Strips } from "./drawn/strips.js";
+import { lineActions } from "./gestures/line_actions.js";
+import { Pointer } from "./gestures/pointer.js";
 import { keyTable, listen } from "./keys.js";
-import { Labelling } from "./labelling.js";
-import { lineActions } from "./line_actions.js";
-import { Messages } from "./messages.js";
-import { Overlay } from "./overlay.js";
-import { PhotoList } from "./photo_list.js";
-import { Pointer } from "./pointer.js";
-import { Previewer } from "./previewer.js";
-import { Selection } from "./selection.js";
-import { Sheet } from "./sheet.js";
-import { Stage } from "./stage.js";
-import { Strips } from "./strips.js";
-import { restoreTheme, turnTheme } from "./theme.js";
-import { Toolbar } from "./toolbar.js";
-import { View } from "./view.js";
+import { Labelling } from "./labelled/labelling.js";
+import { Previewer } from "./labelled/previewer.js";
+import { Selection } from "./labelled/selection.js";
+import { View } from "./labelled/view.js";
+import { signIn } from "./server/api.js";
 
 signIn({ location, history, storage: sessionStorage });
 restoreTheme();

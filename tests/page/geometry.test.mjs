@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { chance } from "./model.mjs";
-import { alongOldLine, brushed, columnAt, drawn, nearest, nextUncertain, thinned, uncertainty } from "../../annotate/static/geometry.js";
+import { alongOldLine, brushed, columnAt, drawn, nearest, nextUncertain, thinned, uncertainty } from "../../annotate/static/basics/geometry.js";
 
 const line = (length) => Array.from({ length }, (_, at) => [at, at]);
 

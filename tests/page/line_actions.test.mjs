@@ -5,10 +5,10 @@ import { beforeEach, test } from "node:test";
 
 import { answer } from "./model.mjs";
 import { Asked, Labelled, photo, soon } from "./stubs.mjs";
-import { me } from "../../annotate/static/api.js";
-import { lineActions } from "../../annotate/static/line_actions.js";
-import { Selection } from "../../annotate/static/selection.js";
-import { View } from "../../annotate/static/view.js";
+import { me } from "../../annotate/static/server/api.js";
+import { lineActions } from "../../annotate/static/gestures/line_actions.js";
+import { Selection } from "../../annotate/static/labelled/selection.js";
+import { View } from "../../annotate/static/labelled/view.js";
 
 let labelling;
 let selection;

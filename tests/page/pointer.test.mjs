@@ -4,9 +4,9 @@ import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
 import { Asked, Labelled, photo } from "./stubs.mjs";
-import { Pointer } from "../../annotate/static/pointer.js";
-import { Selection } from "../../annotate/static/selection.js";
-import { View } from "../../annotate/static/view.js";
+import { Pointer } from "../../annotate/static/gestures/pointer.js";
+import { Selection } from "../../annotate/static/labelled/selection.js";
+import { View } from "../../annotate/static/labelled/view.js";
 
 /** A canvas at the corner of the window. */
 class Canvas extends EventTarget {

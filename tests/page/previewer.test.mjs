@@ -5,8 +5,8 @@ import { beforeEach, test } from "node:test";
 
 import { answer } from "./model.mjs";
 import { Labelled, photo, soon } from "./stubs.mjs";
-import { me } from "../../annotate/static/api.js";
-import { Previewer } from "../../annotate/static/previewer.js";
+import { me } from "../../annotate/static/server/api.js";
+import { Previewer } from "../../annotate/static/labelled/previewer.js";
 
 let labelling;
 let previewer;

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { Selection } from "../../annotate/static/selection.js";
+import { Selection } from "../../annotate/static/labelled/selection.js";
 
 const SHOWN = { width: 100, height: 50, rows: Array.from({ length: 100 }, (_, at) => 10 + Math.floor(at / 10)) };
 

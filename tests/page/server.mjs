@@ -2,7 +2,7 @@
 
 import { answer } from "./model.mjs";
 import { photo } from "./stubs.mjs";
-import { me } from "../../annotate/static/api.js";
+import { me } from "../../annotate/static/server/api.js";
 
 const LEGEND = { statuses: ["to do"], tags: [], stages: [], formats: [], colours: {}, tile: 512, band: 40 };
 

@@ -1,6 +1,6 @@
 /** Stand-ins for the parts of the page that a test leaves out. */
 
-import { Events } from "../../annotate/static/events.js";
+import { Events } from "../../annotate/static/basics/events.js";
 
 /** A photo with a level line. */
 export function photo(how = {}) {

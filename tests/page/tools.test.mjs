@@ -4,9 +4,9 @@ import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
 import { Asked } from "./stubs.mjs";
-import { Selection } from "../../annotate/static/selection.js";
-import { brushRadius } from "../../annotate/static/strokes.js";
-import { DragTool, PanTool, TOOLS, makeTools } from "../../annotate/static/tools.js";
+import { Selection } from "../../annotate/static/labelled/selection.js";
+import { brushRadius } from "../../annotate/static/gestures/strokes.js";
+import { DragTool, PanTool, TOOLS, makeTools } from "../../annotate/static/gestures/tools.js";
 
 let bench;
 let done; // what came of it

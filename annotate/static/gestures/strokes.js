@@ -1,0 +1,152 @@
+/** Tools that draw a stroke: the brush, the line by hand, and from one end to another. */
+
+import { drawn, thinned, within } from "../basics/geometry.js";
+
+/** @import { Point } from "../basics/geometry.js" */
+/** @import { Selection } from "../labelled/selection.js" */
+/** @import { Operation } from "../types.js" */
+
+/**
+ * @typedef {object} Contact - A pointer at one moment.
+ * @property {Point} at - On the screen.
+ * @property {Point} pixel - Of the photo.
+ * @property {[number, number]} by - How far it has moved on the screen since the last moment.
+ * @property {boolean} moved - Whether it has left the place where it was pressed.
+ * @property {boolean} finger
+ * @property {boolean} shift
+ * @property {boolean} alt
+ */
+
+/**
+ * @typedef {object} Tool
+ * @property {(contact: Contact) => void} start
+ * @property {(contact: Contact) => void} move
+ * @property {(contact: Contact) => void} end
+ */
+
+/**
+ * @typedef {object} Bench - What the tools work with.
+ * @property {Selection} selection
+ * @property {{scale: number, pan: (x: number, y: number) => void}} view
+ * @property {{ask: (column: number, row: number, lifted?: number | null) => void, clear: () => void}} previewer
+ * @property {(operation: Operation) => unknown} apply
+ * @property {(column: number, row: number, across: boolean) => void} anchor - Set an anchor.
+ * @property {(column: number) => void} goTo - Put the cursor into a column.
+ */
+
+const BRUSH = 12; // radius of the brush, in screen pixels
+const WIDEST = 1000; // radius in pixels of the photo, as the server takes it
+
+/**
+ * Radius of the brush in pixels of the photo, which looks the same at every zoom.
+ *
+ * @param {number} scale
+ * @param {number} [least]
+ */
+export function brushRadius(scale, least = 1) {
+  return within(Math.round(BRUSH / scale), least, WIDEST);
+}
+
+/** Keeps the line out of what is painted; with Alt, allows it there again. @implements {Tool} */
+export class BrushTool {
+  #bench;
+
+  /** @param {Bench} bench */
+  constructor(bench) {
+    this.#bench = bench;
+  }
+
+  /** @param {Contact} contact */
+  start(contact) {
+    this.#bench.selection.begin("forbid", contact.pixel, { allow: contact.alt, radius: brushRadius(this.#bench.view.scale) });
+    touch(this.#bench, contact);
+  }
+
+  /** @param {Contact} contact */
+  move(contact) {
+    this.#bench.selection.extend(contact.pixel);
+    touch(this.#bench, contact);
+  }
+
+  end() {
+    const { stroke } = this.#bench.selection.now;
+    if (!stroke) return;
+    const { points, radius, allow } = stroke;
+    this.#bench.apply({ kind: "forbid", points: thinned(points), radius, allow });
+  }
+}
+
+/** Draws the line by hand. @implements {Tool} */
+export class DrawTool {
+  #bench;
+
+  /** @param {Bench} bench */
+  constructor(bench) {
+    this.#bench = bench;
+  }
+
+  /** @param {Contact} contact */
+  start(contact) {
+    this.#bench.selection.begin("drawn", contact.pixel);
+    touch(this.#bench, contact);
+  }
+
+  /** @param {Contact} contact */
+  move(contact) {
+    this.#bench.selection.extend(contact.pixel);
+    touch(this.#bench, contact);
+  }
+
+  end() {
+    const points = this.#bench.selection.now.stroke?.points ?? [];
+    if (points.length > 1) this.#bench.apply({ kind: "drawn", ...drawn(points) });
+  }
+}
+
+/** Drags from one pixel to another: a straight piece of the line, or columns in which it is hidden. @implements {Tool} */
+export class SpanTool {
+  #bench;
+  #kind;
+
+  /**
+   * @param {Bench} bench
+   * @param {"straight" | "hidden"} kind
+   */
+  constructor(bench, kind) {
+    this.#bench = bench;
+    this.#kind = kind;
+  }
+
+  /** @param {Contact} contact */
+  start(contact) {
+    this.#bench.selection.begin(this.#kind, contact.pixel, { allow: contact.alt });
+    touch(this.#bench, contact);
+  }
+
+  /** @param {Contact} contact */
+  move(contact) {
+    this.#bench.selection.stretch(contact.pixel);
+    touch(this.#bench, contact);
+  }
+
+  end() {
+    const { points = [], allow = false } = this.#bench.selection.now.stroke ?? {};
+    if (points.length < 2) return;
+    const [[column, row], [to, low]] = points;
+    if (this.#kind === "hidden") {
+      this.#bench.apply({ kind: "hidden", first: Math.min(column, to), last: Math.max(column, to), hidden: !allow });
+    } else if (column !== to) {
+      this.#bench.apply({ kind: "straight", column, row, to_column: to, to_row: low });
+    }
+  }
+}
+
+/**
+ * Magnify what a finger covers.
+ *
+ * @param {Bench} bench
+ * @param {Contact} contact
+ */
+export function touch({ selection }, { finger, at }) {
+  if (finger) selection.touch(at);
+}

@@ -1,0 +1,100 @@
+/** Asks for previews: at most one question is on its way, and only the latest is asked next. */
+
+import { ApiError, post } from "../server/api.js";
+
+/** @import { Labelling } from "./labelling.js" */
+/** @import { Document, Part } from "../types.js" */
+/** @typedef {{column: number, row: number, lifted: number | null}} Wanted */
+
+/** Shows the line through a pixel before it is chosen. */
+export class Previewer {
+  #labelling;
+  #show;
+  /** @type {Wanted | null} */
+  #wanted = null; // what is to be shown, or is shown
+  /** @type {Wanted & {id: number, revision: number, part: Part} | null} */
+  #last = null;
+  #busy = false;
+
+  /**
+   * @param {Labelling} labelling
+   * @param {(part: Part | null) => void} show
+   */
+  constructor(labelling, show) {
+    this.#labelling = labelling;
+    this.#show = show;
+    labelling.on("document", ({ fresh }) => {
+      if (fresh) this.clear();
+      if (!this.#last || this.#fits(this.#last)) return;
+      this.#last = null; // it is of another line
+      show(null);
+    });
+  }
+
+  /**
+   * The part for a pixel, when it is the last one that was shown; else null.
+   *
+   * @param {number} column
+   * @param {number} row
+   */
+  known(column, row) {
+    const last = this.#last;
+    const same = last?.column === column && last.row === row && last.lifted === null;
+    return last && same && this.#fits(last) ? last.part : null;
+  }
+
+  /**
+   * Ask for the line through a pixel; `lifted` is the column of the anchor that is dragged.
+   *
+   * @param {number} column
+   * @param {number} row
+   * @param {number | null} [lifted]
+   */
+  ask(column, row, lifted = null) {
+    this.#wanted = { column, row, lifted };
+    if (!this.#busy) this.#work();
+  }
+
+  /** Show nothing any more, whatever is still answered. */
+  clear() {
+    this.#wanted = null;
+    this.#last = null;
+    this.#show(null);
+  }
+
+  async #work() {
+    this.#busy = true;
+    let asked = null;
+    while (this.#wanted && this.#wanted !== asked && this.#labelling.document) {
+      asked = this.#wanted;
+      await this.#answer(asked, this.#labelling.document);
+    }
+    this.#busy = false;
+  }
+
+  /**
+   * Show the answer to a question, unless another one has been asked since, or none is any more.
+   *
+   * @param {Wanted} asked
+   * @param {Document} document
+   */
+  async #answer(asked, { id, revision }) {
+    try {
+      const part = await post(`api/photos/${id}/preview`, asked);
+      const found = { ...asked, id, revision, part };
+      if (this.#wanted !== asked || !this.#fits(found)) return;
+      this.#last = found;
+      this.#show(part);
+    } catch (error) {
+      if (!(error instanceof ApiError)) throw error;
+      if (error.status !== 422 && !error.away) this.#labelling.say(error.message, true);
+      this.#show(null);
+    }
+  }
+
+  /** @param {{id: number, revision: number}} of */
+  #fits({ id, revision }) {
+    const { document } = this.#labelling;
+    return document?.id === id && document.revision === revision;
+  }
+}
