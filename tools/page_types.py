@@ -23,6 +23,7 @@ ANSWERED = (
     messages.Part,
     messages.Margins,
     messages.Alternatives,
+    messages.Explained,
     messages.Sheet,
     Learning,
 )

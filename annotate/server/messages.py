@@ -12,7 +12,7 @@ from annotate.engine.edits import ORIGINS, Stroke
 from annotate.engine.guide import Guide, along
 from annotate.formats import TITLES
 from annotate.store.cards import Card
-from annotate.store.labels import STATUSES, TAGS, Status
+from annotate.store.labels import HIDDEN_BY, STATUSES, TAGS, Status
 from annotate.store.operations import Operation, Place, spoken
 from annotate.work.images import BAND, TILE
 from annotate.work.session import Session
@@ -90,6 +90,9 @@ class Legend(BaseModel):
     tags: tuple[str, ...]
     """Tags that are offered."""
 
+    hidden_by: tuple[str, ...]
+    """Tags that say why a line cannot be seen."""
+
     stages: tuple[str, ...]
     """Stages, and terms of the cost, that can be laid over a photo."""
 
@@ -107,6 +110,7 @@ class Legend(BaseModel):
         return cls(
             statuses=STATUSES,
             tags=TAGS,
+            hidden_by=HIDDEN_BY,
             stages=stages,
             formats=tuple(ShownFormat(name=name, says=says) for name, says in TITLES.items()),
             colours=Colours(

@@ -5,7 +5,11 @@ import { stagesAddress } from "./server/api.js";
 
 /** @import { Actions } from "./around/actions.js" */
 /** @import { Labelling } from "./labelled/labelling.js" */
+/** @import { Selection } from "./labelled/selection.js" */
+/** @import { Stage } from "./drawn/stage.js" */
 /** @import { lineActions } from "./gestures/line_actions.js" */
+/** @import { Brush } from "./around/brush.js" */
+/** @import { ExplainedPanel } from "./around/explained.js" */
 /** @import { Overlay } from "./around/overlay.js" */
 /** @import { Sheet } from "./around/sheet.js" */
 /** @import { Toolbar } from "./around/toolbar.js" */
@@ -19,6 +23,10 @@ import { stagesAddress } from "./server/api.js";
  * @property {Toolbar} toolbar
  * @property {Overlay} overlay
  * @property {Sheet} sheet
+ * @property {Selection} selection
+ * @property {Stage} stage
+ * @property {ExplainedPanel} explained
+ * @property {Brush} brush
  * @property {() => void} help - Shows all keys.
  */
 
@@ -29,10 +37,19 @@ import { stagesAddress } from "./server/api.js";
  *
  * @param {Parts} parts
  */
-export function makeActs({ labelling, line, actions, toolbar, overlay, sheet, help }) {
+export function makeActs({ labelling, line, actions, toolbar, overlay, sheet, selection, stage, explained, brush, help }) {
   return {
     ...line,
     help,
+    escape() {
+      line.escape();
+      explained.hide();
+    },
+    explainHere: () => labelling.document && explained.show(selection.place(labelling.document)),
+    /** @param {boolean} wider */
+    brush: (wider) => labelling.say(`The brush is ${2 * brush.resize(wider)} screen pixels wide.`),
+    /** @param {boolean} on */
+    magnify: (on) => stage.lines.magnify(on),
     /** @param {Status} status */
     finish: (status) => actions.finish(status),
     /** @param {Status} status */
@@ -58,8 +75,13 @@ export function makeActs({ labelling, line, actions, toolbar, overlay, sheet, he
   };
 }
 
+/** Whether the list would lie over the photo. */
+export function narrow() {
+  return matchMedia("(max-width: 720px)").matches;
+}
+
 /** @param {boolean} shown */
-function showList(shown) {
+export function showList(shown) {
   box("side").hidden = !shown;
   button("list-toggle").setAttribute("aria-expanded", String(shown));
 }

@@ -56,6 +56,20 @@ export interface Draw {
   rows: number[];
 }
 
+/** One pixel, all the way down, see `explanation.Explanation`. */
+export interface Explained {
+  row: number;
+  column: number;
+  colours: [number, number, number][][];
+  edge: boolean;
+  why_edge: string;
+  gradient: number | null;
+  score: number | null;
+  filtered: ShownFilter | null;
+  terms: { [name: string]: number };
+  cost: number | null;
+}
+
 /** A stroke of the brush, or of its eraser. */
 export interface Forbid {
   kind: "forbid";
@@ -91,6 +105,7 @@ export interface Learning {
 export interface Legend {
   statuses: Status[];
   tags: string[];
+  hidden_by: string[];
   stages: string[];
   formats: ShownFormat[];
   colours: Colours;
@@ -193,6 +208,22 @@ export interface ShownAlternative {
   apart: number;
   points: [number, number][];
   radius: number;
+}
+
+/** How a pixel's score comes about, see `explanation.Filtered`. */
+export interface ShownFilter {
+  strength: number;
+  coherence: number;
+  orientation: number;
+  axes: [number, number];
+  bin: number;
+  why: [string, string, string];
+  samples: number;
+  starved: boolean;
+  patch: number[][];
+  taps: number[][];
+  product: number[][];
+  score: number;
 }
 
 /** A format in which labels leave. */

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { chance } from "./model.mjs";
-import { alongOldLine, brushed, columnAt, drawn, nearest, nextUncertain, thinned, uncertainty } from "../../annotate/static/basics/geometry.js";
+import { alongOldLine, brushed, drawn, nearest, thinned, uncertainty } from "../../annotate/static/basics/geometry.js";
 
 const line = (length) => Array.from({ length }, (_, at) => [at, at]);
 
@@ -71,21 +71,10 @@ test("nothing is kept out where the line is close already", () => {
   assert.notDeepEqual(alongOldLine(shown, [400, 105]).points, []);
 });
 
-test("uncertain columns are visited from left to right and round, the least certain one first", () => {
-  const uncertain = [50, 10, 90];
-  assert.equal(nextUncertain(uncertain, undefined, 1), 50);
-  assert.deepEqual([10, 50, 90].map((from) => nextUncertain(uncertain, from, 1)), [50, 90, 10]);
-  assert.deepEqual([10, 50, 90].map((from) => nextUncertain(uncertain, from, -1)), [90, 10, 50]);
-  assert.deepEqual([nextUncertain(uncertain, 60, 1), nextUncertain(uncertain, 60, -1)], [90, 50]);
-  assert.equal(nextUncertain([], 3, 1), undefined);
-});
-
 test("a bar is as uncertain as its least certain column, whether it has many or shares one", () => {
   assert.deepEqual(uncertainty([0, null, 4, 2], 2), [1, 0.25]);
   assert.deepEqual(uncertainty([0, 4], 4), [1, 1, 0, 0]);
   assert.deepEqual(uncertainty([null, 9], 2), [0, 0]);
-});
-
-test("a place in a strip is a column of the photo", () => {
-  assert.deepEqual([0, 50, 99.9, 100, -1].map((x) => columnAt(x, 100, 400)), [0, 200, 399, 399, 0]);
+  assert.deepEqual(uncertainty([0, 4, 4, 0], 6, -1, 6), [0, 1, 0, 0, 1, 0]); // beside the photo there is nothing
+  assert.deepEqual(uncertainty([0, 4, 4, 0], 2, 2, 2), [0, 1]);
 });

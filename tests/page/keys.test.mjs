@@ -54,7 +54,7 @@ test("arrows are slow alone, faster with Shift, fastest with Ctrl, and move the 
 });
 
 test("what belongs to the browser is left to it", () => {
-  for (const key of ["a", "t", "n", "1", "Enter"]) assert.equal(done(press(key, { ctrlKey: true })), undefined, key);
+  for (const key of ["a", "t", "n", "1", "Enter", "j"]) assert.equal(done(press(key, { ctrlKey: true })), undefined, key);
   assert.equal(done(press("f", { altKey: true })), undefined);
   assert.deepEqual(done(press("z", { metaKey: true })), ["undo"]);
   assert.deepEqual(done(press("Z", { ctrlKey: true, shiftKey: true })), ["redo"]);

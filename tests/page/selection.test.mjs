@@ -55,7 +55,7 @@ test("a stroke grows by pixels that are new, or is stretched from its first one"
   const { selection } = watched();
   selection.begin("forbid", [1, 1], { radius: 3 });
   for (const pixel of [[1, 1], [2, 1], [2, 1], [3, 2]]) selection.extend(pixel);
-  assert.deepEqual(selection.now.stroke, { kind: "forbid", points: [[1, 1], [2, 1], [3, 2]], radius: 3, allow: false });
+  assert.deepEqual(selection.now.stroke, { kind: "forbid", points: [[1, 1], [2, 1], [3, 2]], radius: 3, allow: false, times: [] });
   selection.begin("straight", [1, 1]);
   selection.stretch([5, 5]);
   selection.stretch([9, 2]);

@@ -18,13 +18,17 @@ beforeEach(() => {
     view: { scale: 2, pan: (...by) => done.push(["pan", ...by]) },
     previewer: new Asked(),
     apply: (operation) => done.push(operation),
+    brush: { radius: 12 },
+    guide: (rough) => done.push(["guide", rough.points]),
+    corner: (pixel) => done.push(["corner", pixel]),
+    explain: (pixel) => done.push(["explain", pixel]),
     anchor: (...how) => done.push(["anchor", ...how]),
     goTo: (column) => done.push(["goTo", column]),
   };
 });
 
 const at = (column, row, how = {}) =>
-  ({ at: [2 * column, 2 * row], pixel: [column, row], by: [6, 2], moved: true, finger: false, shift: false, alt: false, ...how });
+  ({ at: [2 * column, 2 * row], pixel: [column, row], by: [6, 2], moved: true, far: false, time: 0, finger: false, shift: false, alt: false, ...how });
 
 /** Press at the first contact, move through the others, and let go at the last. */
 function use(tool, ...contacts) {
@@ -45,9 +49,22 @@ test("a click sets an anchor, with Shift one that leaves the old line around", (
   assert.deepEqual(done, [["anchor", 5, 6, false], ["anchor", 7, 8, true]]);
 });
 
-test("the mouse moves the photo with the anchor tool, and sets nothing then", () => {
-  use(makeTools(bench).anchor, at(5, 6, { moved: false }), at(6, 6, { moved: false }), at(9, 6));
+test("a drag along a ridge is a guide, which is shown on the way", () => {
+  use(makeTools(bench).anchor, at(5, 6, { moved: false }), at(6, 6, { moved: false }), at(9, 6, { far: true }), at(12, 7, { far: true }));
+  assert.deepEqual(done, [["guide", [[5, 6], [9, 6], [12, 7]]]]);
+  assert.deepEqual(bench.previewer.followed.map(({ points, radius }) => [points.length, radius]), [[2, 5], [3, 5]]);
+});
+
+test("with Alt the mouse moves the photo with the anchor tool, and sets nothing then", () => {
+  use(makeTools(bench).anchor, at(5, 6, { moved: false, alt: true }), at(9, 6, { far: true, alt: true }));
   assert.deepEqual(done, [["pan", 6, 2]]);
+});
+
+test("corners of a guide are clicked, and a pixel is explained", () => {
+  const { guide, explain } = makeTools(bench);
+  use(guide, at(5, 6, { moved: false }));
+  use(explain, at(7, 8, { moved: false }));
+  assert.deepEqual(done, [["corner", [5, 6]], ["explain", [7, 8]]]);
 });
 
 test("a finger aims before it sets an anchor, and is magnified", () => {
@@ -92,8 +109,8 @@ test("a long stroke is sent with fewer points", () => {
 });
 
 test("the brush has a width at every zoom that the server takes", () => {
-  assert.deepEqual([32, 2, 0.5, 1e-6].map((scale) => brushRadius(scale)), [1, 6, 24, 1000]);
-  assert.equal(brushRadius(32, 2), 2);
+  assert.deepEqual([32, 2, 0.5, 1e-6].map((scale) => brushRadius(12, scale)), [1, 6, 24, 1000]);
+  assert.equal(brushRadius(12, 32, 2), 2);
 });
 
 test("a line that is drawn is sent a row a column; a click draws none", () => {
@@ -122,8 +139,9 @@ test("columns are hidden in either direction, and shown again with Alt; one colu
 });
 
 test("a stroke that is dropped on the way comes to nothing", () => {
-  for (const tool of ["forbid", "straight", "drawn", "hidden"].map((id) => makeTools(bench)[id])) {
+  for (const tool of ["anchor", "forbid", "guide", "straight", "drawn", "hidden"].map((id) => makeTools(bench)[id])) {
     tool.start(at(1, 1));
+    tool.move(at(4, 4, { far: true }));
     bench.selection.clear(); // Escape
     tool.move(at(5, 5));
     tool.end(at(5, 5));

@@ -160,7 +160,17 @@ export class Actions extends Events {
     const labelling = this.#labelling;
     const seen = labelling.document?.id === photo.id && !labelling.loading && !this.#sheet.shown;
     const more = goOn && seen ? await this.#openNext(done) : "";
-    if (more !== null) labelling.say(`${said}${more}`, false, done && (() => this.#takeBack(done)));
+    if (more === null) return;
+    labelling.say(`${said}${more}`, false, done && (() => this.#takeBack(done)), this.#reasons(done));
+  }
+
+  /**
+   * Why a photo is rejected: tags to choose from.
+   *
+   * @param {Done | null} done
+   */
+  #reasons(done) {
+    return done?.status === "rejected" ? this.#labelling.reasons(done, this.#labelling.legend?.tags ?? []) : [];
   }
 
   /**

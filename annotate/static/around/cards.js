@@ -1,4 +1,4 @@
-/** Cards of the sheet: the straightened strip of a photo, its name and its status. */
+/** Cards of the sheet: a photo with its line, the straightened strip beside it, name and status. */
 
 import { made } from "../basics/dom.js";
 import { blob } from "../server/api.js";
@@ -15,16 +15,26 @@ const WIDTH = 800; // of a strip, in pixels
  * @param {(url: string) => void} came - Called with the address of the strip.
  */
 export function cardFor(photo, at, came) {
+  const whole = made("img", { className: "whole", alt: `${photo.name} with its line` });
   const image = made("img", { alt: `Straightened strip of ${photo.name}` });
   const line = made("div", { className: "line" }, made("span", { textContent: photo.name }), made("span", { className: "status" }));
-  const card = made("li", { className: "card", tabIndex: 0 }, image, line);
+  const card = made("li", { className: "card", tabIndex: 0 }, made("div", { className: "both" }, whole, image), line);
   card.dataset.at = String(at);
   labelCard(card, photo);
-  blob(`api/photos/${photo.id}/strip?width=${WIDTH}`).then((data) => {
-    image.src = URL.createObjectURL(data);
-    came(image.src);
-  }, (error) => image.replaceWith(made("p", { className: "none", textContent: error.message })));
+  fill(image, `api/photos/${photo.id}/strip?width=${WIDTH}`, came)
+    .catch((error) => image.replaceWith(made("p", { className: "none", textContent: error.message })));
+  fill(whole, `api/photos/${photo.id}/overview`, came).catch(() => whole.remove()); // why is said where the strip would be
   return card;
+}
+
+/**
+ * @param {HTMLImageElement} image
+ * @param {string} path
+ * @param {(url: string) => void} came
+ */
+async function fill(image, path, came) {
+  image.src = URL.createObjectURL(await blob(path));
+  came(image.src);
 }
 
 /**

@@ -1,13 +1,12 @@
 /** Dialogs: keys, tags, the folder (export and learning), and three sentences at the first visit. */
 
-import { box, dialog, find, input, made } from "../basics/dom.js";
+import { around, box, dialog, find, input, made } from "../basics/dom.js";
 import { remember, remembered } from "../basics/theme.js";
 import { counted } from "../basics/words.js";
 import { ApiError, blob, get, post } from "../server/api.js";
 
 /** @import { Entry } from "../keys.js" */
 /** @import { Labelling } from "../labelled/labelling.js" */
-/** @import { Document, ShownPhoto } from "../types.js" */
 
 const PATIENCE = 600_000; // milliseconds that an export may take
 
@@ -33,36 +32,52 @@ export function welcome() {
 }
 
 /**
- * All keys of the table.
+ * Gestures, and all keys of the table, in their groups.
  *
  * @param {Entry[]} table
+ * @param {readonly (readonly [string, string])[]} gestures
  */
-export function showHelp(table) {
-  box("help-keys").replaceChildren(...table.map(({ shown, says }) => made("div", {},
-    made("span", { className: "key", textContent: shown }), made("span", { textContent: says }))));
+export function showHelp(table, gestures) {
+  const groups = Map.groupBy(table, ({ group }) => group);
+  const keys = [...groups].map(([title, entries]) => section(title, entries.map(({ shown, says }) => [shown, says])));
+  box("help-keys").replaceChildren(section("Mouse and fingers", gestures), ...keys);
   dialog("help-dialog").showModal();
+}
+
+/**
+ * @param {string} title
+ * @param {readonly (readonly [string, string])[]} rows
+ */
+function section(title, rows) {
+  return made("section", {}, made("h3", { textContent: title }), ...rows.map(([does, says]) => made("div", {},
+    made("span", { className: "key", textContent: does }), made("span", { textContent: says }))));
 }
 
 /**
  * Tags of a photo as boxes to tick, and a field for one's own.
  *
  * @param {Labelling} labelling
- * @param {Document | ShownPhoto} photo
+ * @param {{name: string, tags: readonly string[]}} photo - Or what stands for several.
  * @param {(tag: string, on: boolean) => void} set - Called with a tag, and whether it is on.
  */
 export function showTags(labelling, photo, set) {
   const offered = [...labelling.legend?.tags ?? [], ...labelling.photos.flatMap((one) => one.tags), ...photo.tags];
   const ticked = new Set(photo.tags);
-  const draw = () => box("tags-list").replaceChildren(...[...new Set(offered)].map((tag) => {
+  const draw = () => box("tags-list").replaceChildren(...[...new Set(offered)].map((tag, at) => {
     const tick = made("input", { type: "checkbox", checked: ticked.has(tag) });
     tick.addEventListener("change", () => {
       if (tick.checked) ticked.add(tag);
       else ticked.delete(tag);
       set(tag, tick.checked);
     });
-    return made("label", {}, tick, tag);
+    return made("label", {}, tick, at < 9 ? made("kbd", { textContent: String(at + 1) }) : "", tag);
   }));
   draw();
+  dialog("tags-dialog").onkeydown = (event) => {
+    if (around(event, "input:not([type=checkbox])") || event.ctrlKey || event.metaKey || event.altKey) return;
+    const tick = /^[1-9]$/.test(event.key) && box("tags-list").querySelectorAll("input")[Number(event.key) - 1];
+    if (tick) tick.click();
+  };
   box("tags-title").textContent = `Tags of ${photo.name}`;
   find("tags-form", HTMLFormElement).onsubmit = (event) => {
     event.preventDefault();

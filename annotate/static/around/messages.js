@@ -4,7 +4,7 @@ import { box, button, dialog, made } from "../basics/dom.js";
 import { changesLine } from "../basics/operations.js";
 import { trouble } from "../basics/words.js";
 
-/** @import { Labelling, Undo } from "../labelled/labelling.js" */
+/** @import { Choice, Labelling, Undo } from "../labelled/labelling.js" */
 /** @import { Lost } from "../server/queue.js" */
 
 const SLOW = 400; // milliseconds: what is saved within a blink is not worth a word
@@ -14,6 +14,7 @@ export class Messages {
   #labelling;
   #said = box("said");
   #takeBack = button("said-undo");
+  #choices = box("said-choices");
   #trouble = box("trouble");
   #saving = box("saving");
   #lost = button("lost");
@@ -29,7 +30,7 @@ export class Messages {
    */
   constructor(labelling, focus) {
     this.#labelling = labelling;
-    labelling.on("said", ({ text, bad, undo }) => this.#say(text, bad, undo, focus));
+    labelling.on("said", ({ text, bad, undo, choices }) => this.#say(text, bad, undo, focus, choices));
     labelling.on("loading", () => labelling.loading && this.#say("", false, null, focus)); // what was said was of another photo
     labelling.queue.on("change", () => this.#show());
     this.#takeBack.addEventListener("click", () => {
@@ -49,12 +50,21 @@ export class Messages {
    * @param {boolean} bad
    * @param {Undo | null} undo
    * @param {() => void} focus
+   * @param {Choice[]} [choices]
    */
-  #say(text, bad, undo, focus) {
-    const focused = document.activeElement === this.#takeBack;
+  #say(text, bad, undo, focus, choices = []) {
+    const focused = document.activeElement?.closest(".said");
     this.#said.textContent = this.#said.title = text;
     this.#said.classList.toggle("bad", bad);
     this.#takeBack.hidden = !undo;
+    this.#choices.replaceChildren(choices.length ? "Why?" : "", ...choices.map(({ words, run }) => {
+      const one = made("button", { type: "button", textContent: words });
+      one.addEventListener("click", () => {
+        run();
+        focus();
+      });
+      return one;
+    }));
     this.#undo = undo;
     if (focused && !undo) focus(); // not lost with the button
   }

@@ -4,14 +4,17 @@ import { around, box, find, input, made, offer, select } from "../basics/dom.js"
 import { spoken } from "../basics/words.js";
 import { Thumbnails } from "../server/thumbnails.js";
 
+/** @import { Chosen } from "./chosen.js" */
 /** @import { Labelling } from "../labelled/labelling.js" */
 /** @import { ShownPhoto } from "../types.js" */
 
 const HEIGHT = 60; // of an item, in CSS pixels
+const TAG = "tag:"; // before a tag among the filters
 
 /** List, search, filter and progress. */
 export class PhotoList {
   #labelling;
+  #chosen;
   #list = box("list");
   #inner = made("div", { className: "inner" });
   #thumbnails = new Thumbnails();
@@ -20,19 +23,30 @@ export class PhotoList {
 
   /**
    * @param {Labelling} labelling
+   * @param {Chosen} chosen
    * @param {(id: number, clicked: boolean) => void} choose - Called with a photo, and whether a click chose it.
    */
-  constructor(labelling, choose) {
+  constructor(labelling, chosen, choose) {
     this.#labelling = labelling;
+    this.#chosen = chosen;
+    chosen.on("change", () => this.#draw());
     this.#inner.setAttribute("role", "presentation");
     this.#list.append(this.#inner);
     this.#list.addEventListener("scroll", () => this.#draw());
     new ResizeObserver(() => this.#draw()).observe(this.#list);
     this.#list.addEventListener("click", (event) => {
       const item = around(event, ".item");
-      if (item) choose(Number(item.dataset.photo), true);
+      if (!item) return;
+      const photo = Number(item.dataset.photo);
+      if (event.ctrlKey || event.metaKey || event.shiftKey) chosen.toggle(photo, event.shiftKey, this.#found);
+      else choose(photo, true);
     });
     this.#list.addEventListener("keydown", (event) => {
+      const { document: shown } = this.#labelling;
+      if (event.key === " " && shown && !event.defaultPrevented) {
+        event.preventDefault();
+        return chosen.toggle(shown.id, event.shiftKey, this.#found);
+      }
       const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
       if (!step) return;
       event.preventDefault();
@@ -42,7 +56,10 @@ export class PhotoList {
     input("search").addEventListener("input", () => this.#search());
     select("filter").addEventListener("change", () => this.#search());
     labelling.on("legend", ({ statuses }) => offer(select("filter"), statuses));
-    labelling.on("list", () => this.#search());
+    labelling.on("list", () => {
+      this.#offerTags();
+      this.#search();
+    });
     labelling.on("document", ({ fresh }) => {
       if (fresh) this.#reveal();
       this.#draw();
@@ -56,12 +73,23 @@ export class PhotoList {
 
   #search() {
     const words = input("search").value.trim().toLowerCase();
-    const status = select("filter").value;
+    const wanted = select("filter").value;
     this.#found = this.#labelling.photos.filter((photo) =>
-      (!status || photo.status === status) && photo.name.toLowerCase().includes(words));
+      (!wanted || photo.status === wanted || photo.tags.includes(wanted.slice(TAG.length)) && wanted.startsWith(TAG))
+      && photo.name.toLowerCase().includes(words));
     this.#inner.style.height = `${this.#found.length * HEIGHT}px`;
     this.#showProgress();
     this.#draw();
+  }
+
+  /** Offer the tags that photos have beside the statuses. */
+  #offerTags() {
+    const filter = select("filter");
+    const tags = [...new Set(this.#labelling.photos.flatMap((photo) => photo.tags))].toSorted();
+    const known = [...filter.options].filter(({ value }) => value.startsWith(TAG));
+    for (const option of known) if (!tags.includes(option.value.slice(TAG.length)) && !option.selected) option.remove();
+    const there = new Set(known.map(({ value }) => value));
+    for (const tag of tags) if (!there.has(TAG + tag)) filter.append(new Option(`tag: ${tag}`, TAG + tag));
   }
 
   #showProgress() {
@@ -103,11 +131,11 @@ export class PhotoList {
     const image = made("img", { alt: "" });
     const url = photo.missing || photo.too_large ? "" : this.#thumbnails.of(photo.id, (came) => show(photo.id, came));
     if (url) image.src = url;
-    const sub = [lost || photo.status, photo.blind ? "blind" : "", ...photo.tags].filter(Boolean).join(", ");
+    const sub = [lost || photo.status, ...besides(photo)].join(", ");
     const words = made("div", { className: "words" },
       made("div", { className: "title", textContent: photo.name, title: photo.name }),
       made("div", { className: `sub ${lost ? "missing" : photo.status.split(" ")[0]}`, textContent: sub }));
-    const item = made("div", { className: "item", id: `photo-${photo.id}`, title: photo.problem }, image, words);
+    const item = made("div", { className: `item${this.#chosen.has(photo.id) ? " chosen-one" : ""}`, id: `photo-${photo.id}`, title: photo.problem }, image, words);
     item.dataset.photo = String(photo.id);
     item.style.top = `${at * HEIGHT}px`;
     const said = {
@@ -117,6 +145,16 @@ export class PhotoList {
     for (const [name, value] of Object.entries(said)) item.setAttribute(name, String(value));
     return item;
   }
+}
+
+/**
+ * What else there is to say of a photo.
+ *
+ * @param {ShownPhoto} photo
+ */
+function besides({ status, blind, seconds, tags }) {
+  const time = status !== "to do" && seconds >= 1 ? [spoken(seconds)] : [];
+  return [...(blind ? ["blind"] : []), ...time, ...tags];
 }
 
 /**

@@ -5,6 +5,7 @@ import { Events } from "../basics/events.js";
 import { ApiError, get } from "../server/api.js";
 import { cardFor, labelCard } from "./cards.js";
 
+/** @import { Chosen } from "./chosen.js" */
 /** @import { Labelling } from "../labelled/labelling.js" */
 /** @import { ShownPhoto } from "../types.js" */
 
@@ -19,6 +20,7 @@ const ALL = "all";
  */
 export class Sheet extends Events {
   #labelling;
+  #chosen;
   #focus;
   #cards = box("sheet-cards");
   #page = 0;
@@ -32,11 +34,18 @@ export class Sheet extends Events {
 
   /**
    * @param {Labelling} labelling
+   * @param {Chosen} chosen
    * @param {() => void} focus - Gives the photo the keys.
    */
-  constructor(labelling, focus) {
+  constructor(labelling, chosen, focus) {
     super();
     this.#labelling = labelling;
+    this.#chosen = chosen;
+    chosen.on("change", () => this.#frame());
+    this.#cards.addEventListener("click", (event) => {
+      const card = around(event, ".card");
+      if (card && (event.ctrlKey || event.metaKey || event.shiftKey)) this.#toggle(Number(card.dataset.at), event.shiftKey);
+    });
     this.#focus = focus;
     select("sheet-status").addEventListener("change", () => this.#show(0));
     button("sheet-previous").addEventListener("click", () => this.#show(this.#page - 1));
@@ -139,6 +148,7 @@ export class Sheet extends Events {
       return card;
     });
     this.#cards.replaceChildren(...(cards.length ? cards : [made("li", { textContent: words })]));
+    this.#frame();
     this.tell("page");
     this.tell("card");
   }
@@ -168,6 +178,20 @@ export class Sheet extends Events {
     this.tell("card");
   }
 
+  /**
+   * @param {number} at
+   * @param {boolean} range
+   */
+  #toggle(at, range) {
+    const photo = this.#photos[at];
+    if (photo) this.#chosen.toggle(photo.id, range, this.#photos);
+  }
+
+  /** Frame the cards that are chosen. */
+  #frame() {
+    this.#photos.forEach((photo, at) => this.#card(at)?.classList.toggle("chosen-one", this.#chosen.has(photo.id)));
+  }
+
   /** @param {KeyboardEvent} event */
   #key(event) {
     const { key, ctrlKey, metaKey, altKey } = event;
@@ -179,6 +203,7 @@ export class Sheet extends Events {
   /** @param {string} key */
   #keyOfSheet(key) {
     if (key === "a" || key === "d") this.tell("finish", key === "a" ? "accepted" : "rejected");
+    else if (key === "x") this.#toggle(this.#at, false);
     else if (key === "Escape" || key === "w") this.hide();
     else return false;
     return true;

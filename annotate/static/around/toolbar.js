@@ -1,6 +1,6 @@
 /** The buttons of the tools: one of them is chosen. */
 
-import { made } from "../basics/dom.js";
+import { icon, made } from "../basics/dom.js";
 import { Events } from "../basics/events.js";
 import { TOOLS } from "../gestures/tools.js";
 
@@ -20,7 +20,7 @@ export class Toolbar extends Events {
   constructor(group) {
     super();
     this.#buttons = TOOLS.map((tool, at) => {
-      const one = made("button", { type: "button", textContent: tool.name, title: `${tool.title} ( ${tool.key} )` });
+      const one = made("button", { type: "button", title: `${tool.title} ( ${tool.key} )` }, icon(tool.id), made("span", { textContent: tool.name }));
       one.setAttribute("role", "radio");
       one.dataset.tool = tool.id;
       one.addEventListener("click", () => this.#choose(at));

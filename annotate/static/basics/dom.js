@@ -1,5 +1,8 @@
 /** Elements of the page: found, typed, and made. */
 
+/** Namespace of drawings. */
+export const SVG = "http://www.w3.org/2000/svg";
+
 /**
  * An element of the page.
  *
@@ -45,6 +48,21 @@ export function made(tag, how = {}, ...inside) {
   const element = Object.assign(document.createElement(tag), how);
   element.append(...inside);
   return element;
+}
+
+/**
+ * A picture that says the same as the words beside it.
+ *
+ * @param {string} id - Of a symbol of the page.
+ */
+export function icon(id) {
+  const picture = document.createElementNS(SVG, "svg");
+  const use = document.createElementNS(SVG, "use");
+  use.setAttribute("href", `#icon-${id}`);
+  picture.setAttribute("class", "icon");
+  picture.setAttribute("aria-hidden", "true");
+  picture.append(use);
+  return picture;
 }
 
 /**

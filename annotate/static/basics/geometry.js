@@ -18,9 +18,10 @@ export function within(value, low, high) {
 }
 
 /**
- * A stroke with at most some 2,000 points, the last one among them.
+ * A stroke with at most some 2,000 points, the last one among them; or its times, one a point.
  *
- * @param {Point[]} points
+ * @template Kind
+ * @param {Kind[]} points
  */
 export function thinned(points) {
   const step = Math.ceil(points.length / MOST);
@@ -93,43 +94,19 @@ export function alongOldLine({ width, height, rows, anchors }, [column, row]) {
 }
 
 /**
- * The next uncertain column beyond one, around the photo; without one, the least certain of all.
- *
- * @param {number[]} uncertain - The least certain first.
- * @param {number | undefined} from
- * @param {number} step - To the right where it is positive.
- */
-export function nextUncertain(uncertain, from, step) {
-  if (from === undefined) return uncertain[0];
-  const sorted = uncertain.toSorted((a, b) => a - b);
-  return step > 0
-    ? sorted.find((one) => one > from) ?? sorted[0]
-    : sorted.findLast((one) => one < from) ?? sorted.at(-1);
-}
-
-/**
  * How uncertain the columns under each of some bars are, from 0 (sure) to 1: the least certain one counts.
  *
  * @param {(number | null)[]} margins - Of each column; null where its row is fixed.
  * @param {number} bars
+ * @param {number} [from] - Column at which the first bar begins; it may lie between two.
+ * @param {number} [across] - Columns under all bars together.
  */
-export function uncertainty(margins, bars) {
+export function uncertainty(margins, bars, from = 0, across = margins.length) {
   return Array.from({ length: bars }, (_, bar) => {
-    const first = Math.floor(bar * margins.length / bars);
-    const stop = Math.max(Math.floor((bar + 1) * margins.length / bars), first + 1);
+    const first = Math.floor(from + bar * across / bars);
+    const stop = Math.max(Math.floor(from + (bar + 1) * across / bars), first + 1);
     let least = Infinity;
     for (let column = first; column < stop; column++) least = Math.min(least, margins[column] ?? Infinity);
     return Math.max(1 - least / SURE, 0) ** 2;
   });
-}
-
-/**
- * The column under a place in a strip that is as wide as the photo.
- *
- * @param {number} x
- * @param {number} across - Width of the strip.
- * @param {number} width - Of the photo.
- */
-export function columnAt(x, across, width) {
-  return within(Math.floor(x / across * width), 0, width - 1);
 }

@@ -32,6 +32,26 @@ export function described(operation) {
   return /** @type {(how: Operation) => string} */ (WORDS[operation.kind])(operation);
 }
 
+/** @type {{[Kind in Operation["kind"]]?: (how: Of<Kind>) => string}} */
+const DONE = {
+  move: (how) => `The anchor is at column ${how.column}, row ${how.row}.`,
+  remove: (how) => `The anchor at column ${how.column} is removed.`,
+  forbid: (how) => (how.allow ? "The line may go there again." : "The line stays out of there."),
+  straight: (how) => `The line is straight from column ${Math.min(how.column, how.to_column)} to ${Math.max(how.column, how.to_column)}.`,
+  drawn: (how) => `The line lies as drawn from column ${how.first} to ${how.first + how.rows.length - 1}.`,
+  hidden: (how) => `Columns ${how.first} to ${how.last} are ${how.hidden ? "not visible" : "visible"}.`,
+  release: (how) => `What was asked for in columns ${how.first} to ${how.last} is dropped.`,
+};
+
+/**
+ * What an operation has come to, in a sentence.
+ *
+ * @param {Operation} operation
+ */
+export function done(operation) {
+  return /** @type {((how: Operation) => string) | undefined} */ (DONE[operation.kind])?.(operation) ?? `${described(operation)} is done.`;
+}
+
 /**
  * Whether something is known to Undo, or is Undo or Redo itself.
  *

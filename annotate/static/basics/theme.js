@@ -9,6 +9,7 @@ export function turnTheme() {
 
 /** Use the theme that was chosen before. */
 export function restoreTheme() {
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
   const theme = remembered("theme");
   if (theme) setTheme(theme);
 }
@@ -16,7 +17,12 @@ export function restoreTheme() {
 /** @param {string} theme */
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
-  dispatchEvent(new Event("resize")); // what is drawn takes its colours from the page
+  redraw();
+}
+
+/** What is drawn takes its colours from the page. */
+function redraw() {
+  dispatchEvent(new Event("resize"));
 }
 
 /**

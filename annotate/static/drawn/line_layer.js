@@ -2,8 +2,10 @@
 
 import { ANCHOR, BRUSHES, disc, follow, penOf, ratio, softHalo, withNextFrame } from "../basics/drawing.js";
 import { brushed } from "../basics/geometry.js";
+import { corridor } from "./corridor.js";
 import { hatched } from "./hatching.js";
 import { magnify } from "./magnifier.js";
+import { BADGE, apart, badge, badges, framed, ring, veil } from "./marks.js";
 import { paintWaiting, sketched } from "./waiting.js";
 
 /** @import { Point } from "../basics/geometry.js" */
@@ -30,6 +32,8 @@ export class LineLayer {
   #paths = null;
   /** @type {OffscreenCanvas | null} */
   #forbidden = null;
+  #brush = 0; // radius of its ring, in screen pixels
+  #magnified = false;
   #draw = withNextFrame(() => this.#paint());
 
   /**
@@ -61,6 +65,27 @@ export class LineLayer {
   }
 
   /**
+   * Draw a ring as wide as the brush at the mouse; none for 0.
+   *
+   * @param {number} radius - In screen pixels.
+   */
+  ring(radius) {
+    this.#brush = radius;
+    this.#draw();
+  }
+
+  /**
+   * Magnify what is under the mouse, or do not.
+   *
+   * @param {boolean} on
+   */
+  magnify(on) {
+    if (on === this.#magnified) return;
+    this.#magnified = on;
+    this.#draw();
+  }
+
+  /**
    * Show what waits for the server on this photo, too.
    *
    * @param {Item[]} items
@@ -76,10 +101,12 @@ export class LineLayer {
     pen.clearRect(0, 0, this.#canvas.width, this.#canvas.height);
     if (!this.#shown) return;
     const { document, colours } = this.#shown;
-    const { finger } = this.#selection.now;
+    const { finger, pointer } = this.#selection.now;
     const { scale, left, top } = this.#view;
     const [across, down] = [ratio() * scale, ratio()];
     pen.lineJoin = pen.lineCap = "round";
+    pen.setTransform(down, 0, 0, down, 0, 0);
+    veil(pen, document, this.#view, colours);
     pen.setTransform(across, 0, 0, across, down * left, down * top);
     this.#paintLines(pen, this.#shown);
     pen.setTransform(down, 0, 0, down, 0, 0);
@@ -87,7 +114,9 @@ export class LineLayer {
     this.#paintCursor(pen, this.#shown);
     this.#paintAnchors(pen, this.#shown);
     paintWaiting(pen, this.#waiting, this.#view, colours, document.anchors);
-    if (finger) magnify(pen, finger, [this.#below, this.#canvas], colours.anchor);
+    this.#paintChoices(pen, colours, document.rows ?? []);
+    const closely = finger ?? (this.#magnified ? pointer : null);
+    if (closely) magnify(pen, closely, [this.#below, this.#canvas], colours.anchor);
   }
 
   /**
@@ -103,6 +132,7 @@ export class LineLayer {
     if (this.#paths?.stairs !== stairs) this.#paths = linePaths(document, stairs);
     this.#trace(pen, this.#paths.hidden, colours.line, [6, 5]);
     this.#trace(pen, this.#paths.visible, colours.line);
+    this.#paintOthers(pen, colours, document.rows ?? [], stairs);
     if (preview?.rows.length) this.#trace(pen, linePath(preview.first, preview.rows, stairs), colours.preview);
     if (stroke) this.#paintStroke(pen, stroke, colours);
   }
@@ -132,13 +162,52 @@ export class LineLayer {
    * @param {Stroke} stroke
    * @param {Colours} colours
    */
-  #paintStroke(pen, { kind, points, radius, allow }, colours) {
+  #paintStroke(pen, stroke, colours) {
+    const { kind, points, radius, allow } = stroke;
+    if (kind === "guide") {
+      pen.fillStyle = `${colours.preview}38`; // light: the ridge is seen through it
+      return pen.fill(corridor(stroke));
+    }
     const path = new Path2D();
     follow(path, kind === "forbid" ? brushed(points) : points.map(([column, row]) => [column + 0.5, row]));
     if (kind !== "forbid") return this.#trace(pen, path, colours.preview);
     pen.strokeStyle = allow ? BRUSHES.allow : BRUSHES.forbid;
     pen.lineWidth = 2 * radius + 1;
     pen.stroke(path);
+  }
+
+  /**
+   * Lines along other ridges; the one that is looked at alone.
+   *
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Colours} colours
+   * @param {number[]} current
+   * @param {boolean} stairs
+   */
+  #paintOthers(pen, { preview }, current, stairs) {
+    const { others, other } = this.#selection.now;
+    others.forEach(({ rows }, at) => {
+      if (other !== null && other !== at) return;
+      for (const part of apart(rows, current)) this.#trace(pen, linePath(part.first, part.rows, stairs), preview);
+    });
+  }
+
+  /**
+   * What is chosen from or made: numbers of other lines, corners of a guide, the pixel that is explained, the brush.
+   *
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Colours} colours
+   * @param {number[]} current
+   */
+  #paintChoices(pen, colours, current) {
+    const { others, other, corners, explained, pointer } = this.#selection.now;
+    const places = badges(others.map(({ rows }) => rows), current, this.#view.columns(), BADGE / this.#view.scale);
+    places.forEach(([column, row], at) => {
+      if (other === null || other === at) badge(pen, this.#view.toScreen(column + 0.5, row), at + 1, colours);
+    });
+    for (const corner of corners) this.#disc(pen, corner, 5, colours.preview, colours);
+    if (explained) framed(pen, explained, this.#view, colours);
+    if (pointer && this.#brush) ring(pen, pointer, this.#brush, colours);
   }
 
   /**

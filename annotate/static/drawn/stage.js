@@ -17,9 +17,10 @@ export class Stage {
   #labelling;
   #view;
   #selection;
-  #lines;
   /** The layer of the photo. */
   photo;
+  /** The layer of the line. */
+  lines;
 
   /**
    * @param {Labelling} labelling
@@ -31,7 +32,7 @@ export class Stage {
     this.#view = view;
     this.#selection = selection;
     this.photo = new PhotoLayer(canvas("photo"), view);
-    this.#lines = new LineLayer(canvas("lines"), canvas("photo"), view, selection);
+    this.lines = new LineLayer(canvas("lines"), canvas("photo"), view, selection);
     labelling.on("document", ({ fresh }) => this.#show(fresh));
     labelling.queue.on("change", () => this.#showWaiting());
     this.#tellLoading();
@@ -59,14 +60,14 @@ export class Stage {
       this.#view.show(shown.width, shown.height);
       this.photo.show(shown, bitmap, legend.tile);
     }
-    this.#lines.show(shown, legend.colours);
+    this.lines.show(shown, legend.colours);
     this.#showWaiting();
     if (!loading) this.instead(unlabelled(shown));
   }
 
   #showWaiting() {
     const { document: shown, queue } = this.#labelling;
-    if (shown) this.#lines.showWaiting(queue.of(shown.id));
+    if (shown) this.lines.showWaiting(queue.of(shown.id));
   }
 
   #tellLoading() {

@@ -1,15 +1,17 @@
 /** What is done to the line by key: a cursor, a mark, anchors and spans between them. */
 
-import { alongOldLine, nearest, nextUncertain } from "../basics/geometry.js";
-import { counted } from "../basics/words.js";
-import { ApiError, get } from "../server/api.js";
+import { doubts, nextDoubt } from "../basics/doubts.js";
+import { alongOldLine, nearest } from "../basics/geometry.js";
+import { done } from "../basics/operations.js";
+import { guideActions } from "./guides.js";
+import { otherLines } from "./other_lines.js";
 import { brushRadius } from "./strokes.js";
 
 /** @import { Labelling } from "../labelled/labelling.js" */
 /** @import { Previewer } from "../labelled/previewer.js" */
 /** @import { Selection } from "../labelled/selection.js" */
 /** @import { View } from "../labelled/view.js" */
-/** @import { Document } from "../types.js" */
+/** @import { Document, Operation } from "../types.js" */
 
 const PAN = 80; // screen pixels that a key moves the photo
 
@@ -20,10 +22,11 @@ const PAN = 80; // screen pixels that a key moves the photo
  * @param {Labelling} parts.labelling
  * @param {View} parts.view
  * @param {Selection} parts.selection
- * @param {Pick<Previewer, "ask" | "clear" | "known">} parts.previewer
+ * @param {Pick<Previewer, "ask" | "clear" | "follow" | "known">} parts.previewer
+ * @param {{readonly radius: number}} parts.brush - In screen pixels.
  * @param {() => void} parts.focus - Give the photo the keys.
  */
-export function lineActions({ labelling, view, selection, previewer, focus }) {
+export function lineActions({ labelling, view, selection, previewer, brush, focus }) {
   const shown = () => /** @type {Document} */ (labelling.document); // see `guarded`
   const place = () => selection.place(shown());
 
@@ -39,16 +42,37 @@ export function lineActions({ labelling, view, selection, previewer, focus }) {
   /** Columns from the mark to the cursor, which both are done with. */
   function marked() {
     const columns = selection.columns(shown());
-    done();
+    restCursor();
     return columns;
   }
 
-  function done() {
+  function restCursor() {
     previewer.clear();
     selection.rest();
   }
 
+  const guides = guideActions({ labelling, selection, view, previewer });
+  const others = otherLines({ labelling, selection, previewer });
+
+  /** Show what would come of the pixel under the cursor. */
+  function showHere() {
+    if (selection.now.corners.length) guides.showGuide(place());
+    else previewer.ask(...place());
+  }
+
   const act = {
+    /**
+     * Do something, and say that it is done.
+     *
+     * @param {Operation} operation
+     */
+    did(operation) {
+      if (!labelling.apply(operation)) return;
+      const why = operation.kind === "hidden" && operation.hidden ? labelling.reasons(shown(), labelling.legend?.hidden_by ?? []) : [];
+      labelling.say(done(operation), false, null, why);
+    },
+    ...guides,
+    ...others,
     /** @param {number} column */
     goTo(column) {
       previewer.clear();
@@ -69,7 +93,7 @@ export function lineActions({ labelling, view, selection, previewer, focus }) {
         const stroke = alongOldLine({ ...shown(), rows }, [column, row]);
         if (stroke.points.length) labelling.apply({ kind: "forbid", ...stroke, allow: false });
       }
-      const part = across ? null : previewer.known(column, row);
+      const part = across ? null : previewer.known("preview", { column, row, lifted: null });
       previewer.clear();
       if (selection.now.cursor) selection.moveTo(shown(), column);
       if (labelling.apply({ kind: "anchor", column, row }, part)) labelling.say(`Anchor at column ${column}, row ${row}.`);
@@ -77,10 +101,15 @@ export function lineActions({ labelling, view, selection, previewer, focus }) {
     /** @param {number} step */
     uncertain(step) {
       const { margins } = labelling;
-      const column = nextUncertain(margins?.uncertain ?? [], selection.now.cursor?.column, step);
-      if (!margins || column === undefined) return labelling.say("No column is uncertain.");
+      if (!margins) return labelling.say(shown().blind ? "The photo is labelled blind, so nothing is known to be uncertain." : "How sure the line is, is being measured.");
+      const spans = doubts(margins.margins, shown().hidden);
+      const at = nextDoubt(spans, selection.now.cursor?.column, step);
+      if (at < 0) return labelling.say("No span is uncertain.");
+      const { first, last, column, margin } = spans[at];
+      view.look(first, last, shown().rows?.[column] ?? 0);
       act.goTo(column);
-      labelling.say(`Column ${column}, margin ${margins.margins[column]?.toFixed(2)}.`);
+      const where = first === last ? `column ${first}` : `columns ${first} to ${last}`;
+      labelling.say(`Uncertain span ${at + 1} of ${spans.length}: ${where}. Another line there costs only ${margin.toFixed(2)} more.`);
     },
     /** @param {number} step */
     moveColumn(step) {
@@ -93,32 +122,21 @@ export function lineActions({ labelling, view, selection, previewer, focus }) {
     moveRow(step) {
       const [column, row] = place();
       moveTo(column, row + step);
-      previewer.ask(...place());
+      showHere();
       labelling.say(`Column ${column}, row ${place()[1]}.`);
     },
     /** @param {boolean} across */
     anchorHere(across) {
-      act.setAnchor(...place(), across);
+      if (selection.now.corners.length) act.finishGuide();
+      else act.setAnchor(...place(), across);
     },
     removeNearest() {
+      if (selection.now.corners.length) return act.dropCorner();
       const [column] = place();
       const found = nearest(shown().anchors, ([one]) => Math.abs(one - column));
       if (!found) return labelling.say("There is no anchor.");
       labelling.apply({ kind: "remove", column: found[0] });
       labelling.say(`The anchor at column ${found[0]} is removed.`);
-    },
-    /** @param {number} number */
-    async alternative(number) {
-      const { id } = shown();
-      try {
-        const { alternatives } = await get(`api/photos/${id}/alternatives`);
-        if (labelling.document?.id !== id) return; // asked for a photo that is left by now
-        const chosen = alternatives[number - 1];
-        if (!chosen) return labelling.say(`There are ${counted(alternatives.length, "other line")}.`);
-        labelling.apply({ kind: "guide", points: chosen.points, radius: chosen.radius });
-      } catch (error) {
-        labelling.say(ApiError.of(error).message, true);
-      }
     },
     mark() {
       const [column, row] = place();
@@ -130,23 +148,22 @@ export function lineActions({ labelling, view, selection, previewer, focus }) {
       const { mark } = selection.now;
       if (!mark) return labelling.say("Put a mark at one end first: M.");
       const [column, row] = place();
-      done();
-      labelling.apply({ kind: "straight", column: mark.column, row: mark.row, to_column: column, to_row: row });
+      restCursor();
+      act.did({ kind: "straight", column: mark.column, row: mark.row, to_column: column, to_row: row });
     },
     /** @param {boolean} hidden */
     hide(hidden) {
       const { first, last } = marked();
-      labelling.apply({ kind: "hidden", first, last, hidden });
-      labelling.say(`Columns ${first} to ${last} are ${hidden ? "not visible" : "visible"}.`);
+      act.did({ kind: "hidden", first, last, hidden });
     },
     release() {
-      labelling.apply({ kind: "release", ...marked() });
+      act.did({ kind: "release", ...marked() });
     },
     /** @param {boolean} allow */
     forbid(allow) {
       const points = [place()];
-      done();
-      labelling.apply({ kind: "forbid", points, radius: brushRadius(view.scale, 2), allow });
+      restCursor();
+      act.did({ kind: "forbid", points, radius: brushRadius(brush.radius, view.scale, 2), allow });
     },
     /** @param {string} key */
     zoom(key) {

@@ -12,6 +12,7 @@ import { DragTool, PanTool, makeTools } from "./tools.js";
 /** @import { View } from "../labelled/view.js" */
 
 const STILL = 4; // screen pixels within which a press is a click
+const FAR = { finger: 48, mouse: 12 }; // screen pixels from which on a press draws a stroke
 const REACH = { finger: 24, mouse: 10 }; // screen pixels within which an anchor is hit
 
 /**
@@ -21,8 +22,8 @@ const REACH = { finger: 24, mouse: 10 }; // screen pixels within which an anchor
  * @property {Selection} selection
  * @property {Labelling} labelling
  * @property {Previewer} previewer
- * @property {Bench["anchor"]} anchor
- * @property {Bench["goTo"]} goTo
+ * @property {Bench["brush"]} brush
+ * @property {Pick<Bench, "anchor" | "goTo" | "guide" | "corner" | "explain"> & {did: Bench["apply"]} & {showGuide: (pixel?: Point) => void}} line
  */
 
 /** Gives what pointers do to the chosen tool. */
@@ -34,16 +35,17 @@ export class Pointer {
   #chosen = "anchor";
   /** @type {Map<number, Point>} */
   #down = new Map(); // where each pointer is
-  /** @type {{tool: Tool, from: Point, last: Point, moved: boolean} | null} */
+  /** @type {{tool: Tool, from: Point, last: Point, moved: boolean, far: boolean} | null} */
   #press = null;
   /** @type {{x: number, y: number, apart: number} | null} */
   #pinch = null;
 
   /** @param {Parts} parts */
   constructor(parts) {
-    const { canvas, view, selection, labelling, previewer, anchor, goTo } = parts;
+    const { canvas, view, selection, previewer, brush, line } = parts;
+    const { anchor, goTo, guide, corner, explain, did } = line;
     this.#parts = parts;
-    this.#bench = { selection, view, previewer, anchor, goTo, apply: labelling.apply.bind(labelling) };
+    this.#bench = { selection, view, previewer, brush, anchor, goTo, guide, corner, explain, apply: did };
     this.#tools = makeTools(this.#bench);
     canvas.addEventListener("pointerdown", (event) => this.#start(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
@@ -53,7 +55,8 @@ export class Pointer {
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
-      view.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.002)), event.offsetX, event.offsetY);
+      if (Math.abs(event.deltaX) > Math.abs(event.deltaY)) view.pan(-event.deltaX, 0);
+      else view.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.002)), event.offsetX, event.offsetY);
     }, { passive: false });
   }
 
@@ -65,6 +68,7 @@ export class Pointer {
   use(tool) {
     this.#chosen = tool;
     this.#parts.previewer.clear();
+    this.#parts.selection.corner([]);
   }
 
   /** @param {PointerEvent} event */
@@ -82,10 +86,11 @@ export class Pointer {
     }
     const anchor = this.#anchorAt(event);
     if (event.button === 2 && anchor !== undefined) {
-      labelling.apply({ kind: "remove", column: anchor });
+      this.#bench.apply({ kind: "remove", column: anchor });
       return;
     }
-    this.#press = { tool: this.#toolFor(event.button, anchor), from: at, last: at, moved: false };
+    this.#parts.selection.offer([]);
+    this.#press = { tool: this.#toolFor(event.button, anchor), from: at, last: at, moved: false, far: false };
     this.#press.tool.start(this.#contact(event));
   }
 
@@ -111,10 +116,12 @@ export class Pointer {
   #cancel(event) {
     this.#lift(event);
     this.#drop();
+    this.#parts.previewer.clear();
   }
 
   /** @param {PointerEvent} event */
   #leave(event) {
+    this.#parts.selection.point(null);
     if (!this.#press && event.pointerType !== "touch") this.#parts.previewer.clear();
   }
 
@@ -135,9 +142,14 @@ export class Pointer {
    * @param {PointerEvent} event
    */
   #hover(event) {
-    const { view, labelling, previewer } = this.#parts;
-    if (this.#chosen !== "anchor" || event.pointerType === "touch" || labelling.waiting) return;
-    if (this.#anchorAt(event) === undefined) previewer.ask(...view.toPixel(...this.#at(event)));
+    const { view, labelling, previewer, selection, line } = this.#parts;
+    if (event.pointerType === "touch") return;
+    selection.point(this.#at(event));
+    if (labelling.waiting || selection.now.others.length) return;
+    const pixel = view.toPixel(...this.#at(event));
+    if (selection.now.corners.length) line.showGuide(pixel);
+    else if (this.#chosen !== "anchor") return;
+    else if (this.#anchorAt(event) === undefined) previewer.ask(...pixel);
     else previewer.clear();
   }
 
@@ -160,13 +172,16 @@ export class Pointer {
    */
   #contact(event) {
     const at = this.#at(event);
-    const press = this.#press ?? { from: at, last: at, moved: false };
-    press.moved ||= Math.hypot(at[0] - press.from[0], at[1] - press.from[1]) > STILL;
+    const press = this.#press ?? { from: at, last: at, moved: false, far: false };
+    const away = Math.hypot(at[0] - press.from[0], at[1] - press.from[1]);
+    const finger = event.pointerType === "touch";
+    press.moved ||= away > STILL;
+    press.far ||= away > (finger ? FAR.finger : FAR.mouse);
     const by = /** @type {Point} */ ([at[0] - press.last[0], at[1] - press.last[1]]);
     press.last = at;
     return {
-      at, by, pixel: this.#parts.view.toPixel(...at), moved: press.moved,
-      finger: event.pointerType === "touch", shift: event.shiftKey, alt: event.altKey,
+      at, by, pixel: this.#parts.view.toPixel(...at), moved: press.moved, far: press.far,
+      time: event.timeStamp, finger, shift: event.shiftKey, alt: event.altKey,
     };
   }
 

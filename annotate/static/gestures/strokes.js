@@ -4,7 +4,7 @@ import { drawn, thinned, within } from "../basics/geometry.js";
 
 /** @import { Point } from "../basics/geometry.js" */
 /** @import { Selection } from "../labelled/selection.js" */
-/** @import { Operation } from "../types.js" */
+/** @import { Operation, Rough } from "../types.js" */
 
 /**
  * @typedef {object} Contact - A pointer at one moment.
@@ -12,6 +12,8 @@ import { drawn, thinned, within } from "../basics/geometry.js";
  * @property {Point} pixel - Of the photo.
  * @property {[number, number]} by - How far it has moved on the screen since the last moment.
  * @property {boolean} moved - Whether it has left the place where it was pressed.
+ * @property {boolean} far - Whether it has gone so far that it draws, and does not aim.
+ * @property {number} time - In milliseconds.
  * @property {boolean} finger
  * @property {boolean} shift
  * @property {boolean} alt
@@ -28,23 +30,27 @@ import { drawn, thinned, within } from "../basics/geometry.js";
  * @typedef {object} Bench - What the tools work with.
  * @property {Selection} selection
  * @property {{scale: number, pan: (x: number, y: number) => void}} view
- * @property {{ask: (column: number, row: number, lifted?: number | null) => void, clear: () => void}} previewer
+ * @property {{ask: (column: number, row: number, lifted?: number | null) => void, follow: (rough: Rough) => void, clear: () => void}} previewer
+ * @property {{readonly radius: number}} brush - In screen pixels.
  * @property {(operation: Operation) => unknown} apply
+ * @property {(rough: Rough) => void} guide - Let the line lie along a stroke.
+ * @property {(pixel: Point) => void} corner - Go on with a guide that is made corner by corner.
+ * @property {(pixel: Point) => void} explain - Tell what the detector thought of a pixel.
  * @property {(column: number, row: number, across: boolean) => void} anchor - Set an anchor.
  * @property {(column: number) => void} goTo - Put the cursor into a column.
  */
 
-const BRUSH = 12; // radius of the brush, in screen pixels
 const WIDEST = 1000; // radius in pixels of the photo, as the server takes it
 
 /**
  * Radius of the brush in pixels of the photo, which looks the same at every zoom.
  *
+ * @param {number} radius - On the screen.
  * @param {number} scale
  * @param {number} [least]
  */
-export function brushRadius(scale, least = 1) {
-  return within(Math.round(BRUSH / scale), least, WIDEST);
+export function brushRadius(radius, scale, least = 1) {
+  return within(Math.round(radius / scale), least, WIDEST);
 }
 
 /** Keeps the line out of what is painted; with Alt, allows it there again. @implements {Tool} */
@@ -58,7 +64,7 @@ export class BrushTool {
 
   /** @param {Contact} contact */
   start(contact) {
-    this.#bench.selection.begin("forbid", contact.pixel, { allow: contact.alt, radius: brushRadius(this.#bench.view.scale) });
+    this.#bench.selection.begin("forbid", contact.pixel, { allow: contact.alt, radius: brushRadius(this.#bench.brush.radius, this.#bench.view.scale) });
     touch(this.#bench, contact);
   }
 

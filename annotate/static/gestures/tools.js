@@ -1,16 +1,19 @@
 /** The tools: what a press on the photo begins, how it follows the pointer, and what comes of it. */
 
+import { GuideStroke } from "./guides.js";
 import { BrushTool, DrawTool, SpanTool, touch } from "./strokes.js";
 
 /** @import { Bench, Contact, Tool } from "./strokes.js" */
 
 /** The tools, in the order of their buttons. */
 export const TOOLS = /** @type {const} */ ([
-  { id: "anchor", name: "Anchor", key: "A", title: "Click: the line passes through here; with Shift, it leaves the old line around. Drag an anchor to move it, right-click to remove it." },
+  { id: "anchor", name: "Line", key: "A", title: "Click: the line passes through here. Drag along a ridge: the line snaps to it. Drag an anchor to move it, right-click to remove it." },
+  { id: "guide", name: "Guide", key: "I", title: "Click corners along a ridge, the last one twice: the line snaps to it. Or drag along the ridge." },
   { id: "forbid", name: "Brush", key: "B", title: "Paint where the line must not go; with Alt, erase." },
   { id: "straight", name: "Straight", key: "S", title: "Drag from one end of a straight piece to the other." },
-  { id: "drawn", name: "Draw", key: "D", title: "Drag along the line." },
+  { id: "drawn", name: "Draw", key: "D", title: "Drag along the line: it lies just where you draw." },
   { id: "hidden", name: "Hide", key: "H", title: "Drag across columns in which the line cannot be seen; with Alt, show them again." },
+  { id: "explain", name: "Explain", key: "E", title: "Click a pixel: what the detector thought of it." },
 ]);
 
 /** @typedef {typeof TOOLS[number]["id"]} ToolId */
@@ -35,10 +38,17 @@ export class PanTool {
   end() {}
 }
 
-/** Sets an anchor where a finger lets go, or the mouse clicks; the mouse moves the photo. @implements {Tool} */
+/**
+ * Sets an anchor at a click, or where a finger lets go that has aimed. What goes further is a stroke along a
+ * ridge, and with Alt it moves the photo. @implements {Tool}
+ */
 export class AnchorTool {
   #bench;
   #pan;
+  /** @type {Contact | null} */
+  #first = null;
+  /** @type {GuideStroke | null} */
+  #guide = null;
 
   /** @param {Bench} bench */
   constructor(bench) {
@@ -48,18 +58,88 @@ export class AnchorTool {
 
   /** @param {Contact} contact */
   start(contact) {
+    this.#first = contact;
+    this.#guide = null;
     if (contact.finger) aim(this.#bench, contact);
   }
 
   /** @param {Contact} contact */
   move(contact) {
-    if (contact.finger) aim(this.#bench, contact);
-    else if (contact.moved) this.#pan.move(contact);
+    if (this.#first?.alt) this.#pan.move(contact);
+    else if (contact.far || this.#guide) this.#draw(contact);
+    else if (contact.finger) aim(this.#bench, contact);
   }
 
   /** @param {Contact} contact */
-  end({ pixel, finger, moved, shift }) {
-    if (finger || !moved) this.#bench.anchor(...pixel, shift);
+  end({ pixel, shift, moved }) {
+    if (this.#guide) this.#guide.end();
+    else if (!this.#first?.alt || !moved) this.#bench.anchor(...pixel, shift);
+  }
+
+  /** @param {Contact} contact */
+  #draw(contact) {
+    this.#guide ??= new GuideStroke(this.#bench, this.#first ?? contact);
+    this.#guide.move(contact);
+  }
+}
+
+/** Makes a guide corner by corner, a click each; a drag is a whole one. @implements {Tool} */
+export class GuideTool {
+  #bench;
+  /** @type {Contact | null} */
+  #first = null;
+  /** @type {GuideStroke | null} */
+  #guide = null;
+
+  /** @param {Bench} bench */
+  constructor(bench) {
+    this.#bench = bench;
+  }
+
+  /** @param {Contact} contact */
+  start(contact) {
+    this.#first = contact;
+    this.#guide = null;
+    touch(this.#bench, contact);
+  }
+
+  /** @param {Contact} contact */
+  move(contact) {
+    touch(this.#bench, contact);
+    const whole = contact.far && !this.#bench.selection.now.corners.length;
+    if (whole) this.#guide ??= new GuideStroke(this.#bench, this.#first ?? contact);
+    this.#guide?.move(contact);
+  }
+
+  /** @param {Contact} contact */
+  end({ pixel }) {
+    if (this.#guide) this.#guide.end();
+    else this.#bench.corner(pixel);
+  }
+}
+
+/** Tells what the detector thought of a pixel. @implements {Tool} */
+export class ExplainTool {
+  #bench;
+
+  /** @param {Bench} bench */
+  constructor(bench) {
+    this.#bench = bench;
+  }
+
+  /** @param {Contact} contact */
+  start(contact) {
+    touch(this.#bench, contact);
+  }
+
+  /** @param {Contact} contact */
+  move(contact) {
+    touch(this.#bench, contact);
+  }
+
+  /** @param {Contact} contact */
+  end({ pixel }) {
+    this.#bench.explain(pixel);
   }
 }
 
@@ -103,10 +183,12 @@ export class DragTool {
 export function makeTools(bench) {
   return {
     anchor: new AnchorTool(bench),
+    guide: new GuideTool(bench),
     forbid: new BrushTool(bench),
     straight: new SpanTool(bench, "straight"),
     drawn: new DrawTool(bench),
     hidden: new SpanTool(bench, "hidden"),
+    explain: new ExplainTool(bench),
   };
 }
 

@@ -12,6 +12,7 @@ const OPENING = 300_000; // milliseconds that the first look at a large photo ma
 
 /** @typedef {{document: Document, bitmap: ImageBitmap}} Ready */
 /** @typedef {() => void} Undo - Takes back what was said. */
+/** @typedef {{words: string, run: () => void}} Choice - What can be added to what was said. */
 
 /**
  * @typedef {object} Told
@@ -23,7 +24,7 @@ const OPENING = 300_000; // milliseconds that the first look at a large photo ma
  * @property {undefined} margins
  * @property {undefined} loading
  * @property {undefined} did - An operation is sent.
- * @property {{text: string, bad: boolean, undo: Undo | null}} said
+ * @property {{text: string, bad: boolean, undo: Undo | null, choices: Choice[]}} said
  */
 
 /**
@@ -156,9 +157,27 @@ export class Labelling extends Events {
    * @param {string} text
    * @param {boolean} [bad]
    * @param {Undo | null} [undo]
+   * @param {Choice[]} [choices]
    */
-  say(text, bad = false, undo = null) {
-    this.tell("said", { text, bad, undo });
+  say(text, bad = false, undo = null, choices = []) {
+    this.tell("said", { text, bad, undo, choices });
+  }
+
+  /**
+   * Reasons to choose from, each of which becomes a tag of a photo.
+   *
+   * @param {{id: number, name: string}} photo
+   * @param {readonly string[]} tags - None where none is offered.
+   * @returns {Choice[]}
+   */
+  reasons(photo, tags) {
+    return tags.map((tag) => ({
+      words: tag,
+      run: () => {
+        this.send(photo, { what: "operations", operation: { kind: "tag", tag, on: true }, says: `the tag “${tag}”` });
+        this.say(`${photo.name} has the tag “${tag}”.`);
+      },
+    }));
   }
 
   /** @param {Ready} ready */

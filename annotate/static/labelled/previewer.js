@@ -3,16 +3,16 @@
 import { ApiError, post } from "../server/api.js";
 
 /** @import { Labelling } from "./labelling.js" */
-/** @import { Document, Part } from "../types.js" */
-/** @typedef {{column: number, row: number, lifted: number | null}} Wanted */
+/** @import { Document, Part, Pixel, Rough } from "../types.js" */
+/** @typedef {{what: "preview" | "guide", body: Pixel | Rough}} Wanted - The line through a pixel, or along a guide. */
 
-/** Shows the line through a pixel before it is chosen. */
+/** Shows a line before it is chosen: the one through a pixel, or along a guide. */
 export class Previewer {
   #labelling;
   #show;
   /** @type {Wanted | null} */
   #wanted = null; // what is to be shown, or is shown
-  /** @type {Wanted & {id: number, revision: number, part: Part} | null} */
+  /** @type {{asked: string, id: number, revision: number, part: Part} | null} */
   #last = null;
   #busy = false;
 
@@ -32,15 +32,14 @@ export class Previewer {
   }
 
   /**
-   * The part for a pixel, when it is the last one that was shown; else null.
+   * The part that an anchor or a guide would change, when it is the last one that was shown; else null.
    *
-   * @param {number} column
-   * @param {number} row
+   * @param {Wanted["what"]} what
+   * @param {Pixel | Rough} body
    */
-  known(column, row) {
+  known(what, body) {
     const last = this.#last;
-    const same = last?.column === column && last.row === row && last.lifted === null;
-    return last && same && this.#fits(last) ? last.part : null;
+    return last && last.asked === JSON.stringify({ what, body }) && this.#fits(last) ? last.part : null;
   }
 
   /**
@@ -51,8 +50,16 @@ export class Previewer {
    * @param {number | null} [lifted]
    */
   ask(column, row, lifted = null) {
-    this.#wanted = { column, row, lifted };
-    if (!this.#busy) this.#work();
+    this.#want({ what: "preview", body: { column, row, lifted } });
+  }
+
+  /**
+   * Ask for the line along a guide.
+   *
+   * @param {Rough} rough
+   */
+  follow(rough) {
+    this.#want({ what: "guide", body: rough });
   }
 
   /** Show nothing any more, whatever is still answered. */
@@ -60,6 +67,12 @@ export class Previewer {
     this.#wanted = null;
     this.#last = null;
     this.#show(null);
+  }
+
+  /** @param {Wanted} wanted */
+  #want(wanted) {
+    this.#wanted = wanted;
+    if (!this.#busy) this.#work();
   }
 
   async #work() {
@@ -80,8 +93,8 @@ export class Previewer {
    */
   async #answer(asked, { id, revision }) {
     try {
-      const part = await post(`api/photos/${id}/preview`, asked);
-      const found = { ...asked, id, revision, part };
+      const part = await post(`api/photos/${id}/${asked.what}`, asked.body);
+      const found = { asked: JSON.stringify(asked), id, revision, part };
       if (this.#wanted !== asked || !this.#fits(found)) return;
       this.#last = found;
       this.#show(part);

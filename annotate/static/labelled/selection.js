@@ -4,7 +4,7 @@ import { Events } from "../basics/events.js";
 import { within } from "../basics/geometry.js";
 
 /** @import { Point } from "../basics/geometry.js" */
-/** @import { Document, Part } from "../types.js" */
+/** @import { Document, Part, ShownAlternative } from "../types.js" */
 
 /**
  * @typedef {object} Cursor
@@ -14,10 +14,11 @@ import { within } from "../basics/geometry.js";
 
 /**
  * @typedef {object} Stroke - What is being drawn.
- * @property {"forbid" | "straight" | "drawn" | "hidden"} kind
+ * @property {"forbid" | "guide" | "straight" | "drawn" | "hidden"} kind
  * @property {Point[]} points
  * @property {boolean} allow - Whether it takes back what other strokes of its kind did.
- * @property {number} radius - Of the brush.
+ * @property {number} radius - Of the brush, or what the hand is uncertain by.
+ * @property {number[]} times - When each point of a guide was reached, in milliseconds.
  */
 
 /**
@@ -27,11 +28,19 @@ import { within } from "../basics/geometry.js";
  * @property {Stroke | null} stroke
  * @property {number | null} dragged - Column of the anchor that is dragged.
  * @property {Point | null} finger - Where a finger touches, on the screen.
+ * @property {Point | null} pointer - Where the mouse is, on the screen.
  * @property {Part | null} preview
+ * @property {Point[]} corners - Of a guide that is made point by point.
+ * @property {ShownAlternative[]} others - Lines along other ridges, to choose from.
+ * @property {number | null} other - Which of them is looked at.
+ * @property {Point | null} explained - The pixel that is explained.
  */
 
 /** @type {Readonly<Selected>} */
-const NOTHING = Object.freeze({ cursor: null, mark: null, stroke: null, dragged: null, finger: null, preview: null });
+const NOTHING = Object.freeze({
+  cursor: null, mark: null, stroke: null, dragged: null, finger: null, pointer: null, preview: null, corners: [], others: [], other: null,
+  explained: null,
+});
 
 /**
  * One place for what is selected; nothing of it is known to the server. Event: `change`.
@@ -100,21 +109,23 @@ export class Selection extends Events {
    *
    * @param {Stroke["kind"]} kind
    * @param {Point} pixel
-   * @param {{allow?: boolean, radius?: number}} [how]
+   * @param {{allow?: boolean, radius?: number, time?: number}} [how]
    */
-  begin(kind, pixel, { allow = false, radius = 0 } = {}) {
-    this.#set({ stroke: { kind, points: [pixel], allow, radius } });
+  begin(kind, pixel, { allow = false, radius = 0, time } = {}) {
+    this.#set({ stroke: { kind, points: [pixel], allow, radius, times: time === undefined ? [] : [time] } });
   }
 
   /**
    * Go on with the stroke to another pixel.
    *
    * @param {Point} pixel
+   * @param {number} [time]
    */
-  extend(pixel) {
+  extend(pixel, time) {
     const { stroke } = this.#now;
     if (!stroke || String(stroke.points.at(-1)) === String(pixel)) return;
     stroke.points.push(pixel); // strokes are long, so they grow in place
+    if (time !== undefined) stroke.times.push(time);
     this.#set({});
   }
 
@@ -154,6 +165,51 @@ export class Selection extends Events {
    */
   preview(part) {
     if (part !== this.#now.preview) this.#set({ preview: part });
+  }
+
+  /**
+   * Say where the mouse is on the screen.
+   *
+   * @param {Point | null} at
+   */
+  point(at) {
+    this.#set({ pointer: at });
+  }
+
+  /**
+   * Make a guide of these corners.
+   *
+   * @param {Point[]} corners
+   */
+  corner(corners) {
+    this.#set({ corners });
+  }
+
+  /**
+   * Offer lines along other ridges; none ends that.
+   *
+   * @param {ShownAlternative[]} others
+   */
+  offer(others) {
+    this.#set({ others, other: null });
+  }
+
+  /**
+   * Look at one of the lines that are offered, or at all of them again.
+   *
+   * @param {number | null} other
+   */
+  lookAt(other) {
+    this.#set({ other });
+  }
+
+  /**
+   * Mark the pixel that is explained.
+   *
+   * @param {Point | null} pixel
+   */
+  explain(pixel) {
+    this.#set({ explained: pixel });
   }
 
   /** Forget what is being drawn or dragged. */

@@ -6,6 +6,8 @@ import { within } from "../basics/geometry.js";
 /** @import { Point } from "../basics/geometry.js" */
 
 const LARGEST = 32; // screen pixels a pixel
+const CLOSE = 2; // screen pixels a pixel in which a place is looked at
+const AROUND = 4; // times as wide as what is looked at
 
 /**
  * Maps pixels of the photo to the screen and back. Event: `change`.
@@ -93,6 +95,23 @@ export class View extends Events {
     const { width, height } = this.#size;
     if (x < 40 || x > width - 40) this.left += width / 2 - x;
     if (y < 40 || y > height - 40) this.top += height / 2 - y;
+    this.#settle();
+  }
+
+  /**
+   * Show some columns with what is around them, exact where they are few.
+   *
+   * @param {number} first
+   * @param {number} last
+   * @param {number} row - In the middle.
+   */
+  look(first, last, row) {
+    const { width, height } = this.#size;
+    const wanted = width / (AROUND * (last - first + 1));
+    this.scale = within(wanted, this.#smallest(), Math.max(CLOSE, this.#smallest()));
+    this.left = width / 2 - (first + last + 1) / 2 * this.scale;
+    this.top = height / 2 - row * this.scale;
+    this.#fitted = this.scale === this.#smallest();
     this.#settle();
   }
 

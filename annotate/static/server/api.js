@@ -5,7 +5,7 @@
  * never comes, breaks off while it is read, is no JSON, or is somebody else's is no answer.
  */
 
-/** @import { Alternatives, Apply, Document, Learning, Legend, Margins, Part, PhotoList, Pixel, Sheet, Step } from "../types.js" */
+/** @import { Alternatives, Apply, Document, Learning, Legend, Explained, Margins, Part, PhotoList, Pixel, Rough, Sheet, Step } from "../types.js" */
 
 const PATIENCE = 60_000; // milliseconds within which a whole answer must be there
 const TOKEN = "X-Skyline-Token";
@@ -81,7 +81,8 @@ export function signIn({ location, history, storage }) {
  *   : Path extends "api/learn" ? Learning
  *   : Path extends `api/photos/${number}/margins` ? Margins
  *   : Path extends `api/photos/${number}/alternatives` ? Alternatives
- *   : Path extends `api/photos/${number}/preview` ? Part
+ *   : Path extends `api/photos/${number}/preview` | `api/photos/${number}/guide` ? Part
+ *   : Path extends `api/photos/${number}/pixels/${number}/${number}` ? Explained
  *   : Path extends `api/photos/${number}` | `api/photos/${number}/${Change}` ? Document
  *   : never} Answer
  */
@@ -104,7 +105,7 @@ export async function get(path, how = {}) {
  *
  * @template {string} Path
  * @param {Path} path
- * @param {Apply | Step | Pixel | {}} body
+ * @param {Apply | Step | Pixel | Rough | {}} body
  * @param {How} [how]
  * @returns {Promise<Answer<Path>>}
  */

@@ -23,7 +23,7 @@ def test_pictures_show_the_photo(client, folder):
     assert client.get("/api/photos/2/tiles/1/0").status_code == 404
     strip = picture(client.get("/api/photos/2/strip?width=70"))
     rows = client.get("/api/photos/2").json()["rows"]
-    assert strip.shape == (81, 70, 3)
+    assert strip.shape[:2] == (81, 70)
     for column in (0, 33, 69):
         np.testing.assert_array_equal(strip[40, column, ::-1], photo[rows[column], column])
     for stage in ("edges", "strength", "coherence", "orientation", "bin", "score", "cost"):

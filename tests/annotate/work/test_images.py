@@ -69,7 +69,7 @@ def test_in_a_strip_the_line_is_level():
     line = Skyline(rows)
     photo = np.where(line.to_mask(48)[..., None], np.uint8(220), np.uint8(30)).repeat(3, axis=2)
     picture = opened(strip(photo, line, 70))
-    assert picture.shape == (2 * BAND + 1, 70, 3)
+    assert picture.shape == (2 * BAND + 1, 70, 4)  # transparent beside the photo
     assert (picture[BAND - 5 : BAND] == 220).all()
     assert (picture[BAND : BAND + 5] == 30).all()
     assert (picture[0] == 0).all()  # beyond the photo
