@@ -11,7 +11,7 @@ import { begin } from "./around/begin.js";
 import { Brush } from "./around/brush.js";
 import { Choices } from "./around/choices.js";
 import { Chosen } from "./around/chosen.js";
-import { learn, prepare, showHelp, showMore, welcome } from "./around/dialogs.js";
+import { closeWelcome, learn, prepare, showHelp, showMore, welcome } from "./around/dialogs.js";
 import { ExplainedPanel } from "./around/explained.js";
 import { Header } from "./around/header.js";
 import { Messages } from "./around/messages.js";
@@ -19,6 +19,7 @@ import { Overlay } from "./around/overlay.js";
 import { PhotoList } from "./around/photo_list.js";
 import { Sheet } from "./around/sheet.js";
 import { Toolbar } from "./around/toolbar.js";
+import { Tour } from "./around/tour.js";
 import { around, box, button, canvas } from "./basics/dom.js";
 import { restoreTheme, turnTheme } from "./basics/theme.js";
 import { Stage } from "./drawn/stage.js";
@@ -96,6 +97,11 @@ const buttons = {
   more: () => showMore(labelling), learn: () => learn(labelling), theme: turnTheme,
 };
 for (const [id, run] of Object.entries(buttons)) button(id).addEventListener("click", () => run());
+const tour = new Tour(focus);
+button("tour-begin").addEventListener("click", () => {
+  closeWelcome();
+  tour.begin();
+});
 addEventListener("online", () => labelling.queue.wake());
 addEventListener("beforeunload", (event) => labelling.queue.waiting && event.preventDefault());
 prepare(() => (sheet.shown ? sheet.home : lines));

@@ -147,7 +147,7 @@ def told(before: F64, after: F64, when: tuple[str, str]) -> str:
     )
     both = tuple(zip((before, after), when, strict=True))
     parts = [
-        f"{name} {', '.join(f'{_short(of(errors))}{unit} {word}' for errors, word in both)}"
+        f"{name} {', '.join(f'{_short(float(of(errors)))}{unit} {word}' for errors, word in both)}"
         for name, of, unit in figures
     ]
     return f"{'; '.join(parts)} (photos that it has not seen)"

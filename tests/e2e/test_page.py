@@ -183,10 +183,13 @@ def test_keyboard_alone_does_the_whole_job(page, client):
     page.keys(*["ArrowUp"] * (start - row), "Enter")
     assert page.document()["anchors"] == [[column, row]]
     page.keys("n")
-    page.says("margin")
+    page.says("uncertain")
     page.keys("1")
-    assert len(page.document()["anchors"]) == 2
-    page.keys("u", "Escape", "ArrowLeft")
+    page.page.locator("#choices").wait_for()
+    assert page.document()["guides"] == []
+    page.keys("1")
+    assert page.document()["guides"] == [[0, WIDTH - 1]]
+    page.keys("u", "Escape", "0", "ArrowLeft")
     page.keys(*["Control+ArrowRight"], "m", *["Shift+ArrowRight"] * 3, "k")
     assert page.document()["hidden"] == [[300, 330]]
     page.keys("m", *["Shift+ArrowRight"] * 2, "l")

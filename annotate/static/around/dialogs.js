@@ -24,6 +24,11 @@ export function prepare(home) {
   }
 }
 
+/** Go on from the first sentences without giving the photo the keys. */
+export function closeWelcome() {
+  dialog("first-dialog").close();
+}
+
 /** Three sentences, once. */
 export function welcome() {
   if (remembered("welcomed")) return;

@@ -70,6 +70,7 @@ export class Overlay {
   /** @param {ImageBitmap | null} layer */
   #lay(layer) {
     this.#layer = layer;
+    input("opacity").hidden = !layer;
     this.#photo.lay(layer, Number(input("opacity").value));
   }
 

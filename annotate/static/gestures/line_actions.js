@@ -178,6 +178,7 @@ export function lineActions({ labelling, view, selection, previewer, brush, focu
     escape() {
       previewer.clear();
       selection.clear();
+      labelling.say("");
     },
   };
   return guarded(act, () => Boolean(labelling.document && !labelling.loading));
