@@ -98,10 +98,7 @@ const buttons = {
 };
 for (const [id, run] of Object.entries(buttons)) button(id).addEventListener("click", () => run());
 const tour = new Tour(focus);
-button("tour-begin").addEventListener("click", () => {
-  closeWelcome();
-  tour.begin();
-});
+button("tour-begin").addEventListener("click", () => closeWelcome(() => tour.begin()));
 addEventListener("online", () => labelling.queue.wake());
 addEventListener("beforeunload", (event) => labelling.queue.waiting && event.preventDefault());
 prepare(() => (sheet.shown ? sheet.home : lines));

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from annotate.engine.live_wire import LiveWire
 from skyline_viz.photo import write_photo
-from testing.labelling import served, write_hills
+from testing.labelling import DETECTOR, served, write_hills
 from testing.programs.browser import Page
 
 HEIGHT, WIDTH = 240, 400
@@ -22,6 +23,12 @@ def ridges():
     photo[rows >= lower] = 50
     photo += np.random.default_rng(3).normal(0, 2, photo.shape)
     return photo.clip(0, 255).astype(np.uint8), upper, lower
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _compiled():
+    """What follows a guide is compiled once, which takes longer than a browser waits."""
+    LiveWire(ridges()[0], DETECTOR).preview_guide([(10, 100), (200, 100)])
 
 
 @pytest.fixture

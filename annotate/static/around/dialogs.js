@@ -24,8 +24,13 @@ export function prepare(home) {
   }
 }
 
-/** Go on from the first sentences without giving the photo the keys. */
-export function closeWelcome() {
+/**
+ * Go on from the first sentences to something else, which gets the keys.
+ *
+ * @param {() => void} next
+ */
+export function closeWelcome(next) {
+  dialog("first-dialog").addEventListener("close", next, { once: true });
   dialog("first-dialog").close();
 }
 
@@ -47,6 +52,7 @@ export function showHelp(table, gestures) {
   const keys = [...groups].map(([title, entries]) => section(title, entries.map(({ shown, says }) => [shown, says])));
   box("help-keys").replaceChildren(section("Mouse and fingers", gestures), ...keys);
   dialog("help-dialog").showModal();
+  dialog("help-dialog").scrollTop = 0; // its button, which has the keys, is at the end
 }
 
 /**
