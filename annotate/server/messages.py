@@ -93,8 +93,8 @@ class Legend(BaseModel):
     hidden_by: tuple[str, ...]
     """Tags that say why a line cannot be seen."""
 
-    stages: tuple[str, ...]
-    """Stages, and terms of the cost, that can be laid over a photo."""
+    stages: dict[str, str]
+    """Stages, and terms of the cost, that can be laid over a photo, and how each reads."""
 
     formats: tuple[ShownFormat, ...]
     colours: Colours
@@ -105,7 +105,7 @@ class Legend(BaseModel):
     """Rows above and below the line in a strip."""
 
     @classmethod
-    def made(cls, stages: tuple[str, ...]) -> Legend:
+    def made(cls, stages: dict[str, str]) -> Legend:
         """Put together what is defined elsewhere, and what can be laid over a photo."""
         return cls(
             statuses=STATUSES,

@@ -106,7 +106,7 @@ export interface Legend {
   statuses: Status[];
   tags: string[];
   hidden_by: string[];
-  stages: string[];
+  stages: { [name: string]: string };
   formats: ShownFormat[];
   colours: Colours;
   tile: number;

@@ -45,11 +45,17 @@ export class ExplainedPanel {
       if (turn !== this.#turn) return;
       this.#selection.explain([column, row]);
       box("explained-title").textContent = `Column ${column}, row ${row}`;
-      box("explained-words").replaceChildren(...told(both[0], both[1] ?? null));
+      box("explained-words").replaceChildren(...told(both[0], both[1] ?? null, this.#colours));
       box("explained").hidden = false;
     } catch (error) {
       if (turn === this.#turn) this.#labelling.say(ApiError.of(error).message, true);
     }
+  }
+
+  /** Colours of what is drawn into a patch. */
+  get #colours() {
+    const { legend } = this.#labelling;
+    return legend ? [legend.colours.halo, legend.colours.line] : [];
   }
 
   /** Close it. */
@@ -67,15 +73,16 @@ export class ExplainedPanel {
  *
  * @param {Explained} here
  * @param {Explained | null} line - The line's pixel in its column, where it is another one.
+ * @param {string[]} colours - Of what is drawn into its patch: halo and line.
  */
-function told(here, line) {
+function told(here, line, colours) {
   const { filtered } = here;
   return [
     made("p", { textContent: sentence(here.why_edge || (here.edge ? "an edge pixel" : "no edge pixel")) }),
-    made("div", { className: "patches" }, ...(filtered ? patches(filtered) : []), colourPatch(here)),
+    made("div", { className: "patches" }, ...(filtered ? patches(filtered, colours) : []), colourPatch(here)),
     table("What it is", line, [
       ...(filtered ? filterRows(here, filtered, line) : []),
-      ["score", number(here.score), number(line?.score)],
+      ["score, 0 to 1", number(here.score), number(line?.score)],
     ]),
     ...(filtered ? [made("p", { className: "why", textContent: sentence(`Filter ${filtered.bin}, since ${filtered.why.join("; ")}`) })] : []),
     table("What it pays", line, [
@@ -98,7 +105,7 @@ function filterRows(here, filtered, line) {
     ["strength, grey levels a pixel", ...there.map((one) => number(one.strength, 1))],
     ["coherence, 0 to 1", ...there.map((one) => number(one.coherence))],
     ["orientation, degrees", ...there.map((one) => number(one.orientation, 0))],
-    ["bin", ...there.map((one) => String(one.bin))],
+    ["filter, by bin", ...there.map((one) => String(one.bin))],
     ["its training samples", ...there.map(samples)],
     ["patch times filter", ...there.map((one) => number(one.score))],
   ];
@@ -137,13 +144,16 @@ function table(title, line, rows) {
     made("td", { textContent: name }), ...columns.map((_, at) => made("td", { className: "number", textContent: values[at] }))))));
 }
 
-/** @param {ShownFilter} filtered */
-function patches(filtered) {
+/**
+ * @param {ShownFilter} filtered
+ * @param {string[]} colours
+ */
+function patches(filtered, colours) {
   const { patch, taps, product } = filtered;
   const most = Math.max(...product.flat().map(Math.abs), 1e-9);
   const strongest = Math.max(...taps.flat().map(Math.abs), 1e-9);
   const grey = figure("grey levels, with the structure tensor", pixels(patch, (value) => [value, value, value]));
-  grey.firstElementChild?.append(ellipse(filtered));
+  grey.firstElementChild?.append(ellipse(filtered, colours));
   return [
     grey,
     figure(`filter of bin ${filtered.bin}`, pixels(taps, (value) => twoSided(value / strongest))),
@@ -192,12 +202,13 @@ function twoSided(share) {
  * The structure tensor in its patch, as the viewer draws it.
  *
  * @param {ShownFilter} filtered
+ * @param {string[]} colours - Of the halo and of itself.
  */
-function ellipse({ axes, orientation }) {
+function ellipse({ axes, orientation }, [halo, own]) {
   const drawing = document.createElementNS(SVG, "svg");
   drawing.setAttribute("viewBox", "-1 -1 2 2");
   const [along, across] = axes.map((axis) => axis / Math.max(axes[0], FULL));
-  for (const [colour, width] of [["#000", 0.12], ["#ff2d95", 0.06]]) {
+  for (const [colour, width] of /** @type {[string, number][]} */ ([[halo, 0.12], [own, 0.06]])) {
     const one = document.createElementNS(SVG, "ellipse");
     const how = { rx: along, ry: across, transform: `rotate(${orientation})`, fill: "none", stroke: colour, "stroke-width": width };
     for (const [name, value] of Object.entries(how)) one.setAttribute(name, String(value));

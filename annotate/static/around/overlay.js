@@ -25,7 +25,7 @@ export class Overlay {
   constructor(labelling, photo) {
     this.#labelling = labelling;
     this.#photo = photo;
-    labelling.on("legend", ({ stages }) => offer(this.#choice, [NONE, ...stages]));
+    labelling.on("legend", ({ stages }) => offer(this.#choice, [NONE, ...Object.keys(stages)]));
     labelling.on("document", ({ fresh }) => {
       if (!fresh) return;
       this.#layer = null; // it was of the photo before
@@ -70,7 +70,8 @@ export class Overlay {
   /** @param {ImageBitmap | null} layer */
   #lay(layer) {
     this.#layer = layer;
-    input("opacity").hidden = !layer;
+    for (const id of ["opacity", "legend"]) box(id).hidden = !layer;
+    box("legend").textContent = this.#labelling.legend?.stages[this.#choice.value] ?? "";
     this.#photo.lay(layer, Number(input("opacity").value));
   }
 
