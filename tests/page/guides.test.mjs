@@ -24,7 +24,7 @@ beforeEach(() => {
 });
 
 test("a hand is as uncertain as it looks at the zoom, and a finger more", () => {
-  assert.deepEqual([1, 0.25, 8, 1e-6].map((scale) => handRadius(scale)), [10, 40, 2, 1000]);
+  assert.deepEqual([1, 0.25, 8, 1e-6].map((scale) => handRadius(scale)), [6, 24, 2, 1000]);
   assert.ok(handRadius(1, true) > handRadius(1));
 });
 
@@ -44,7 +44,7 @@ test("corners are shown as a line, and the last one again ends the guide", () =>
   act.showGuide([200, 95]);
   assert.deepEqual(previewer.followed.map(({ points }) => points.length), [2, 3]);
   act.corner([153, 92]); // within a few screen pixels
-  assert.deepEqual(labelling.applied, [{ kind: "guide", points: [[50, 100], [150, 90]], radius: 10, times: [] }]);
+  assert.deepEqual(labelling.applied, [{ kind: "guide", points: [[50, 100], [150, 90]], radius: 12, times: [] }]);
   assert.deepEqual(selection.now.corners, []);
 });
 

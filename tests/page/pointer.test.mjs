@@ -81,7 +81,7 @@ test("with the mouse over the photo, the line through its pixel is shown; over a
 test("a press that goes on is a stroke along a ridge, from where it began; with Alt it moves the photo", () => {
   drag([[100, 60], [106, 60], [140, 70], [180, 75]]);
   const [[name, { points, radius }]] = done;
-  assert.deepEqual([name, points, radius], ["guide", [[100, 60], [140, 70], [180, 75]], 10]);
+  assert.deepEqual([name, points, radius], ["guide", [[100, 60], [140, 70], [180, 75]], 6]);
   assert.equal(previewer.followed.length, 2);
   view.zoom(4);
   const { left } = view;

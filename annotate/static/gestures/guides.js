@@ -11,7 +11,8 @@ import { touch } from "./strokes.js";
 /** @import { Document, Rough } from "../types.js" */
 /** @import { Bench, Contact } from "./strokes.js" */
 
-const HAND = { mouse: 10, finger: 18 }; // screen pixels that a hand is uncertain by
+const HAND = { mouse: 6, finger: 12 }; // screen pixels that a slow hand is uncertain by; the server doubles it for a fast one
+const CORNERS = 2; // times as much between corners, which are joined by straight lines
 const WIDEST = 1000; // radius in pixels of the photo, as the server takes it
 const SAME = 8; // screen pixels within which a second click means the last corner
 
@@ -78,7 +79,7 @@ export class GuideStroke {
 export function guideActions({ labelling, selection, view, previewer }) {
   const place = () => selection.place(/** @type {Document} */ (labelling.document));
   /** @param {Point[]} points */
-  const along = (points) => ({ points, radius: handRadius(view.scale), times: [] });
+  const along = (points) => ({ points, radius: handRadius(view.scale / CORNERS), times: [] });
   /** @type {(one: Point, other: Point) => boolean} */
   const close = (one, other) => Math.hypot(one[0] - other[0], one[1] - other[1]) * view.scale <= SAME;
 
