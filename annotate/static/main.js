@@ -63,7 +63,7 @@ new PhotoList(labelling, chosen, (id, clicked) => {
   labelling.open(id);
 });
 const toolbar = new Toolbar(box("tools"));
-const pointer = new Pointer({ canvas: lines, view, selection, labelling, previewer, brush, line: { ...line, anchor: line.setAnchor, explain: (pixel) => explained.show(pixel) } });
+const pointer = new Pointer({ canvas: lines, view, selection, labelling, previewer, brush, line: { ...line, anchor: line.setAnchor, goTo: line.select, explain: (pixel) => explained.show(pixel) } });
 const act = makeActs({ labelling, selection, stage, line, actions, toolbar, overlay, sheet, explained, brush, help: () => showHelp(table, GESTURES) });
 const table = keyTable(act);
 

@@ -80,6 +80,15 @@ export function lineActions({ labelling, view, selection, previewer, brush, focu
       focus();
     },
     /**
+     * Put the cursor on an anchor.
+     *
+     * @param {number} column
+     */
+    select(column) {
+      act.goTo(column);
+      labelling.say(`The anchor at column ${column} has the cursor: drag it, or Delete removes it. Zoom in to set another one beside it.`);
+    },
+    /**
      * Set an anchor. With `across`, keep the line on this side of where it runs now: a thin stroke of
      * the brush goes along the old line, up to the neighbouring anchors or an eighth of the photo away.
      *
