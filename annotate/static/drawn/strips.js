@@ -6,7 +6,7 @@ import { uncertainty, within } from "../basics/geometry.js";
 import { picture } from "../server/api.js";
 
 /** @import { Labelling } from "../labelled/labelling.js" */
-/** @import { Selection } from "../labelled/selection.js" */
+/** @import { Selected, Selection } from "../labelled/selection.js" */
 /** @import { View } from "../labelled/view.js" */
 /** @import { Document, Legend, Margins } from "../types.js" */
 
@@ -25,6 +25,8 @@ export class Strips {
   #selection;
   /** @type {ImageBitmap | null} */
   #image = null;
+  /** @type {[Selected["cursor"], Selected["mark"]]} */
+  #places = [null, null];
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
   #turn = 0;
@@ -49,7 +51,12 @@ export class Strips {
       this.#draw();
     });
     labelling.on("margins", this.#draw);
-    selection.on("change", this.#draw);
+    selection.on("change", () => {
+      const { cursor, mark } = selection.now;
+      if (cursor === this.#places[0] && mark === this.#places[1]) return; // only the mouse has moved
+      this.#places = [cursor, mark];
+      this.#draw();
+    });
     view.on("change", () => {
       if (this.#coarse()) this.#ask(SETTLING);
       this.#draw();
