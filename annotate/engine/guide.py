@@ -15,7 +15,7 @@ import cv2
 import numba
 import numpy as np
 
-from skyline_viz.arrays import F64, Int
+from skyline_viz.arrays import F64, U8, Int
 
 _FAST = 40.0  # radii a second: a hand that moves so fast is led by a disc of twice the radius
 _BESIDE = 4.0  # pixels that a guide is wide to either side where it chooses a line
@@ -58,6 +58,21 @@ class Guide:
             (self.first + start, self.tops[start:], self.bottoms[start:]),
         ]
         return [Guide(*part) for part in parts if part[1]]
+
+    def paint(self, mask: U8, left: int, delta: int) -> None:
+        """Mark all but the corridor in some columns ``(n, H)``, and unmark the corridor.
+
+        Args:
+            mask: 1 for what is forbidden there, column by column.
+            left: The first of the columns.
+            delta: Largest change of row between neighbouring columns, in pixels.
+        """
+        tops, bottoms = self.bounds(delta)
+        start, stop = max(self.first, left), min(self.last + 1, left + len(mask))
+        mask[max(start - left, 0) : max(stop - left, 0)] = 1
+        for column in range(start, stop):
+            at = column - self.first
+            mask[column - left, tops[at] : bottoms[at] + 1] = 0
 
     def bounds(self, delta: int) -> tuple[Int, Int]:
         """First and last row ``(n,)`` of each column, wider where the stroke is too steep.

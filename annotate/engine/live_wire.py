@@ -26,6 +26,7 @@ import numpy.typing as npt
 from annotate.engine.edits import ORIGINS, Edits
 from annotate.engine.guide import Guide
 from annotate.engine.plan import Plan, Run, make_plan
+from annotate.engine.steering import Ground
 from annotate.engine.tables import BACKWARD, FORWARD, Tables
 from skyline_viz.arrays import F32, F64, U8, Int, check_photo
 from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
@@ -162,6 +163,21 @@ class LiveWire:
         """
         return self._change(lambda edits: edits.anchor(int(column), int(row)))
 
+    def aimed(self, column: int, row: int, within: int) -> tuple[int, int]:
+        """Column and row of the best edge near a pixel: where a click there sets its anchor.
+
+        It depends on the photo alone, not on what has been asked for.
+
+        Args:
+            column: Column of the pixel.
+            row: Its row.
+            within: How many rows away at the most; 0 for the pixel itself.
+        """
+        inside = 0 <= column < self.width and 0 <= row < self.height
+        if self.blind or not within or not inside:
+            return column, row
+        return column, self._tables.best_near(column, row, within)
+
     def straight(self, column: int, row: int, to_column: int, to_row: int) -> Skyline:
         """Let the line be straight between two pixels, see `Edits.straight`."""
         return self._change(lambda edits: edits.straight(column, row, to_column, to_row))
@@ -195,6 +211,10 @@ class LiveWire:
                 labelled blind, and no line can snap.
         """
         return self._change(lambda edits: edits.guide(points, radius, times))
+
+    def side(self, points: Sequence[tuple[int, int]], ground: Ground) -> Skyline:
+        """Say that all above a stroke is sky, or all below it terrain, see `Edits.side`."""
+        return self._change(lambda edits: edits.side(points, ground))
 
     def hide(self, first: int, last: int, *, hidden: bool = True) -> Skyline:
         """Say where the line cannot be seen, see `Edits.hide`."""

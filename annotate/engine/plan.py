@@ -7,7 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from annotate.engine.edits import Edits, Steering, clearings
+from annotate.engine.edits import Edits
+from annotate.engine.steering import Steering, clearings
 from skyline_viz.arrays import Bool, Int, read_only, runs
 from skyline_viz.constraints import Anchor, StraightSpan
 
@@ -163,4 +164,5 @@ def make_plan(edits: Edits, delta: int | None) -> Plan:
             straight[:first] = straight[last + 1 :] = True
     read_only(fixed)
     read_only(straight)
-    return Plan(fixed, straight, (*edits.strokes, *clearings(edits)))
+    cleared = clearings(edits.anchors, edits.strokes, (edits.height, edits.width))
+    return Plan(fixed, straight, (*edits.strokes, *cleared))

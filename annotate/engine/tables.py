@@ -14,9 +14,9 @@ import numba
 import numpy as np
 
 from annotate.engine.corridor import follow
-from annotate.engine.edits import Steering, paint
 from annotate.engine.guide import Guide
 from annotate.engine.plan import Plan, Stale, painted_between
+from annotate.engine.steering import Steering, paint
 from skyline_viz.arrays import F32, F64, Bool, Int, runs
 from skyline_viz.path import APART, column_margin, min_marginals, sweep
 
@@ -24,6 +24,7 @@ FORWARD, BACKWARD = True, False
 """The table of costs from the left, and the one from the right."""
 
 _POOL = ThreadPoolExecutor(2, "sweep")
+_PIECE = 12  # columns to either side that tell an edge of a ridge from one of a stone
 _STRIDE = 64  # columns that are swept before it is looked at whether more of them change
 
 
@@ -101,6 +102,27 @@ class Tables:
             rows,
         )  # fmt: skip
         return bool(np.isfinite(cost))
+
+    def best_near(self, column: int, row: int, within: int) -> int:
+        """Row of the best edge of a column near a row: where the cheapest short line crosses it.
+
+        A pixel alone may be an edge of a stone; a piece of a ridge goes on to both sides.
+
+        Args:
+            column: The column.
+            row: The row.
+            within: How many rows away at the most.
+        """
+        width, height = self._cost.shape
+        first, last = max(column - _PIECE, 0), min(column + _PIECE, width - 1)
+        away = within + np.abs(np.arange(first, last + 1, dtype=np.int32) - column)
+        tops, bottoms = np.maximum(row - away, 0), np.minimum(row + away, height - 1)
+        rows = np.zeros(width, np.int32)
+        nothing = np.empty(0)
+        follow(
+            self._cost, tops, bottoms, first, nothing, nothing, self._delta, self.link_weight, rows
+        )
+        return int(rows[column])
 
     def _beside(self, plan: Plan, column: int, table: F64) -> F64:
         """``(H,)`` costs of a column beside a guide; empty outside the photo."""

@@ -8,8 +8,9 @@ from typing import Annotated
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
-from annotate.engine.edits import ORIGINS, Stroke
+from annotate.engine.edits import ORIGINS
 from annotate.engine.guide import Guide, along
+from annotate.engine.steering import Side, Stroke
 from annotate.formats import TITLES
 from annotate.store.cards import Card
 from annotate.store.labels import STATUSES, TAGS, Status
@@ -207,6 +208,9 @@ class Document(BaseModel):
     guides: list[tuple[int, int]]
     """First and last column of each guide."""
 
+    sides: tuple[Side, ...]
+    """Columns in which the line keeps to one side of a stroke."""
+
     can_undo: bool
     can_redo: bool
     undo_what: str | None
@@ -243,6 +247,7 @@ class Document(BaseModel):
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
             forbidden=tuple(one for one in edits.strokes if isinstance(one, Stroke)),
             guides=[one.columns for one in edits.strokes if isinstance(one, Guide)],
+            sides=tuple(one for one in edits.strokes if isinstance(one, Side)),
             can_undo=bool(state.steps),
             can_redo=bool(state.taken),
             undo_what=spoken(state.steps[-1].change) if state.steps else None,

@@ -40,6 +40,7 @@ export interface Document {
   spans: ShownSpan[];
   forbidden: Stroke[];
   guides: [number, number][];
+  sides: Side-Output[];
   can_undo: boolean;
   can_redo: boolean;
   undo_what: string | null;
@@ -107,10 +108,11 @@ export interface Margins {
 
 /** An anchor is dragged. */
 export interface MoveAnchor {
-  kind: "move";
-  from_column: number;
   column: number;
   row: number;
+  within?: number;
+  kind: "move";
+  from_column: number;
 }
 
 /** The photo is shown: the clock starts. */
@@ -162,9 +164,10 @@ export interface Rough {
 
 /** The line passes through a pixel. */
 export interface SetAnchor {
-  kind: "anchor";
   column: number;
   row: number;
+  within?: number;
+  kind: "anchor";
 }
 
 /** The photo is accepted, rejected, or to be looked at again. */
@@ -232,6 +235,20 @@ export interface ShownSpan {
   last: number;
 }
 
+/** All above a stroke is sky, or all below it is terrain: the line keeps to the other side. */
+export interface Side-Input {
+  kind: "side";
+  points: [number, number][];
+  ground: "sky" | "terrain";
+}
+
+/** Columns in which all above a stroke is sky, or all below it is terrain. */
+export interface Side-Output {
+  first: number;
+  rows: number[];
+  ground?: "sky" | "terrain";
+}
+
 /** Undo or redo. */
 export interface Step {
   id: string;
@@ -261,6 +278,7 @@ export type Operation =
   | RemoveAnchor
   | Forbid
   | Guide
+  | Side-Input
   | Straight
   | Draw
   | Hide

@@ -11,6 +11,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Field, Strict, TypeAdapter
 
 from annotate.engine.edits import Edits
+from annotate.engine.steering import Ground
 from annotate.store.labels import Status
 
 Place: TypeAlias = Annotated[int, Field(ge=-100_000, le=100_000)]
@@ -30,25 +31,31 @@ class _Operation(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class SetAnchor(_Operation):
+class _Aimed(_Operation):
+    """A pixel that somebody points at."""
+
+    column: Place
+    row: Place
+    within: Annotated[int, Field(ge=0, le=1000, exclude=True)] = 0
+    """The anchor lies on the best edge no more than so many rows away; 0 for exactly here. It is
+    found before the operation is kept, so that the log has the anchor itself, and no such field."""
+
+
+class SetAnchor(_Aimed):
     """The line passes through a pixel."""
 
     kind: Literal["anchor"] = "anchor"
-    column: Place
-    row: Place
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the anchor."""
         return edits.anchor(self.column, self.row)
 
 
-class MoveAnchor(_Operation):
+class MoveAnchor(_Aimed):
     """An anchor is dragged."""
 
     kind: Literal["move"] = "move"
     from_column: Place
-    column: Place
-    row: Place
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the anchor elsewhere."""
@@ -98,6 +105,18 @@ class Guide(Rough):
     def on(self, edits: Edits) -> Edits:
         """Edits with the guide."""
         return edits.guide(self.points, self.radius, self.times)
+
+
+class Side(_Operation):
+    """All above a stroke is sky, or all below it is terrain: the line keeps to the other side."""
+
+    kind: Literal["side"] = "side"
+    points: Points
+    ground: Ground
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with the side."""
+        return edits.side(self.points, self.ground)
 
 
 class Straight(_Operation):
@@ -190,7 +209,16 @@ class Redo(_Operation):
 
 
 Edit: TypeAlias = Annotated[
-    SetAnchor | MoveAnchor | RemoveAnchor | Forbid | Guide | Straight | Draw | Hide | Release,
+    SetAnchor
+    | MoveAnchor
+    | RemoveAnchor
+    | Forbid
+    | Guide
+    | Side
+    | Straight
+    | Draw
+    | Hide
+    | Release,
     Field(discriminator="kind"),
 ]
 """What changes the line."""
@@ -230,6 +258,8 @@ def spoken(change: Change) -> str:
         return change.status
     if isinstance(change, Forbid) and change.allow:
         return "the eraser stroke"
+    if isinstance(change, Side):
+        return "all above is sky" if change.ground == "sky" else "all below is terrain"
     if isinstance(change, Hide) and not change.hidden:
         return "the columns shown again"
     return _SPOKEN[change.kind]

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from annotate.engine.edits import Edits, paint
+from annotate.engine.edits import Edits
 from annotate.engine.live_wire import LiveWire
+from annotate.engine.steering import paint
 from testing.labelling import DETECTOR, hills
 
 
