@@ -18,7 +18,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from annotate.engine.guide import guide_along
-from annotate.engine.steering import Ground, Steering, Stroke, side_of
+from annotate.engine.steering import Ground, Left, Steering, Stroke, side_of
 from skyline_viz.arrays import Bool, runs
 from skyline_viz.constraints import Anchor, StraightSpan
 
@@ -78,8 +78,14 @@ class Edits:
     hidden: tuple[tuple[int, int], ...] = ()
     """First and last column of each run in which the line cannot be seen, from left to right."""
 
-    def anchor(self, column: int, row: int) -> Edits:
-        """Let the line pass through a pixel."""
+    def anchor(self, column: int, row: int, left: Left | None = None) -> Edits:
+        """Let the line pass through a pixel.
+
+        Args:
+            column: Its column.
+            row: Its row.
+            left: The piece of the line that is left for the ridge of the pixel.
+        """
         self._require_inside(column, row)
         around = self._around
         spans: list[Span] = []
@@ -88,11 +94,16 @@ class Edits:
                 spans.append(span)
             elif span.kind == "drawn":
                 spans += span.without(column - around, column + around)
-        return self._with(anchors={**self.anchors, column: row}, spans=spans)
+        strokes = (*self.strokes, left) if left else self.strokes
+        return self._with(anchors={**self.anchors, column: row}, spans=spans, strokes=strokes)
 
     def move(self, from_column: int, column: int, row: int) -> Edits:
-        """Move an anchor to another pixel."""
-        return self.remove(from_column).anchor(column, row)
+        """Move an anchor to another pixel, with what was left for it."""
+        left = [one for one in self.strokes if isinstance(one, Left) and one.of == from_column]
+        moved = self.remove(from_column).anchor(column, row)
+        if not left:
+            return moved
+        return moved._with(strokes=(*moved.strokes, *(replace(one, of=column) for one in left)))
 
     def remove(self, column: int) -> Edits:
         """Take an anchor away."""
@@ -213,6 +224,19 @@ class Edits:
             return None
         return (*new.popitem(), next(iter(old), None))
 
+    def left_after(self, before: Edits) -> int | None:
+        """Column of the anchor for which a piece of the line was left, where that is all there is.
+
+        None when something else differs, too.
+        """
+        left = self.strokes[len(before.strokes) :]
+        if self.spans != before.spans or self.strokes != (*before.strokes, *left):
+            return None
+        new = self.anchors.items() - before.anchors.items()
+        if len(new) != 1 or before.anchors.items() - self.anchors.items():
+            return None
+        return new.pop()[0] if len(left) == 1 and isinstance(left[0], Left) else None
+
     def hidden_mask(self) -> Bool:
         """``(W,)`` True where the line cannot be seen."""
         mask: Bool = np.zeros(self.width, np.bool_)
@@ -232,11 +256,13 @@ class Edits:
         strokes: Iterable[Steering] | None = None,
         hidden: tuple[tuple[int, int], ...] | None = None,
     ) -> Edits:
+        held = self.anchors if anchors is None else MappingProxyType(dict(anchors))
+        steering = self.strokes if strokes is None else tuple(strokes)
         return replace(
             self,
-            anchors=self.anchors if anchors is None else MappingProxyType(dict(anchors)),
+            anchors=held,
             spans=self.spans if spans is None else tuple(spans),
-            strokes=self.strokes if strokes is None else tuple(strokes),
+            strokes=tuple(one for one in steering if not isinstance(one, Left) or one.of in held),
             hidden=self.hidden if hidden is None else hidden,
         )
 

@@ -130,12 +130,24 @@ def along(rows: Int) -> tuple[list[tuple[int, int]], int]:
         >>> along(np.array([5, 6, 7, 8, 8, 8]))
         ([(0, 5), (5, 8)], 4)
     """
-    line = np.column_stack([np.arange(len(rows)), rows]).astype(np.int32)
     for within in (_BESIDE / 2, _BESIDE, 2 * _BESIDE, 4 * _BESIDE):
-        points = cv2.approxPolyDP(line.reshape(-1, 1, 2), within, closed=False).reshape(-1, 2)
+        points = thinned(0, rows, within)
         if len(points) <= _MOST:
             break
-    return [(int(column), int(row)) for column, row in points], int(2 * within)
+    return list(points), int(2 * within)
+
+
+def thinned(first: int, rows: Int, within: float) -> tuple[tuple[int, int], ...]:
+    """Points of a line that lies no more than some pixels beside them (Douglas and Peucker).
+
+    Args:
+        first: Its first column.
+        rows: Row in each of its columns.
+        within: How many pixels.
+    """
+    line = np.column_stack([np.arange(first, first + len(rows)), rows]).astype(np.int32)
+    points = cv2.approxPolyDP(line.reshape(-1, 1, 2), within, closed=False).reshape(-1, 2)
+    return tuple((int(column), int(row)) for column, row in points)
 
 
 def radii_of(vertices: F64, radius: float, times: Sequence[int]) -> F64:

@@ -1,7 +1,10 @@
-"""What steers a line without fixing it: the brush, guides, and sides that a line keeps to.
+"""What steers a line without fixing it: the brush, guides, sides to keep to, and lines left behind.
 
-Each of them forbids pixels. They hold in their order: a guide and the eraser allow again what was
+Most of them forbid pixels. They hold in their order: a guide and the eraser allow again what was
 forbidden before. An anchor is stronger than all of them, see `clearings`.
+
+A line that a click left is not forbidden, but dearer: near the click the photo has another ridge,
+and the line had better follow that. Where nothing else leads on, it still may come back.
 """
 
 from __future__ import annotations
@@ -15,26 +18,26 @@ import cv2
 import numpy as np
 
 from annotate.engine.guide import Guide
-from skyline_viz.arrays import U8, Bool
+from skyline_viz.arrays import U8
 
 _AROUND = 4  # pixels that are cleared around an anchor, beyond what it takes to get there
+
+FREE, FORBIDDEN, DEARER = 0, 1, 2
+"""What is marked in a mask: nothing, pixels that the line must not visit, pixels that cost more."""
 
 Ground: TypeAlias = Literal["sky", "terrain"]
 """What an annotator says of all pixels on one side of a stroke."""
 
 
 @dataclass(frozen=True)
-class Stroke:
-    """A stroke of the brush: where the line must not go, or, of the eraser, may go again."""
+class _Thick:
+    """A thick line."""
 
     points: tuple[tuple[int, int], ...]
-    """Column and row of its centre line."""
+    """Column and row of each point of its centre line."""
 
     radius: int
     """Half its width, in pixels."""
-
-    allow: bool = False
-    """Whether it is the eraser's."""
 
     @cached_property
     def columns(self) -> tuple[int, int]:
@@ -47,6 +50,21 @@ class Stroke:
         """First and last row that it may touch."""
         down = [row for _, row in self.points]
         return min(down) - self.radius - 1, max(down) + self.radius + 1
+
+    def _draw(self, mask: U8, left: int, value: int) -> None:
+        # x runs down a column here
+        points = [(row, column - left) for column, row in self.points]
+        for start, end in zip(points, [*points[1:], points[-1]], strict=True):
+            cv2.line(mask, start, end, value, 2 * self.radius + 1)
+            cv2.circle(mask, end, self.radius, value, -1)
+
+
+@dataclass(frozen=True)
+class Stroke(_Thick):
+    """A stroke of the brush: where the line must not go, or, of the eraser, may go again."""
+
+    allow: bool = False
+    """Whether it is the eraser's."""
 
     def may_forbid(self, column: int, row: int) -> bool:
         """Whether it may forbid a pixel: a quick look at what lies far off."""
@@ -61,15 +79,36 @@ class Stroke:
         """Mark what it forbids, and unmark what it allows, in some columns ``(n, H)``.
 
         Args:
-            mask: 1 for what is forbidden there, column by column.
+            mask: What is marked there, column by column.
             left: The first of the columns.
         """
-        colour = 0 if self.allow else 1
-        # x runs down a column here
-        points = [(row, column - left) for column, row in self.points]
-        for start, end in zip(points, [*points[1:], points[-1]], strict=True):
-            cv2.line(mask, start, end, colour, 2 * self.radius + 1)
-            cv2.circle(mask, end, self.radius, colour, -1)
+        self._draw(mask, left, FREE if self.allow else FORBIDDEN)
+
+
+@dataclass(frozen=True)
+class Left(_Thick):
+    """A piece of the line that a click has left for another ridge: it costs more from then on."""
+
+    of: int
+    """Column of the anchor; the piece goes with it."""
+
+    def may_forbid(self, *_: int) -> bool:
+        """It forbids nothing."""
+        return False
+
+    def without(self, first: int, last: int) -> list[Left]:
+        """What is left of it when the columns from `first` to `last` are cut out."""
+        parts = (
+            tuple(point for point in self.points if point[0] < first),
+            tuple(point for point in self.points if point[0] > last),
+        )
+        return [Left(points, self.radius, self.of) for points in parts if points]
+
+    def paint(self, mask: U8, left: int) -> None:
+        """Mark what it makes dearer, but for what is forbidden, see `Stroke.paint`."""
+        drawn = np.zeros_like(mask)
+        self._draw(drawn, left, DEARER)
+        np.copyto(mask, drawn, where=(mask == FREE))
 
 
 @dataclass(frozen=True)
@@ -112,7 +151,9 @@ class Side:
         """Mark what it forbids, see `Stroke.paint`."""
         for column in range(max(self.first, left), min(self.last + 1, left + len(mask))):
             row = self.rows[column - self.first]
-            mask[column - left, slice(0, row) if self.ground == "sky" else slice(row + 1, None)] = 1
+            mask[column - left, slice(0, row) if self.ground == "sky" else slice(row + 1, None)] = (
+                FORBIDDEN
+            )
 
 
 def side_of(
@@ -138,7 +179,8 @@ def side_of(
     for (column, row), (to_column, to_row) in zip(points, [*points[1:], points[-1]], strict=True):
         start, end = sorted([(column, row), (to_column, to_row)])
         places = np.arange(max(start[0], 0), min(end[0], width - 1) + 1)
-        rows = np.rint(np.interp(places, *zip(start, end, strict=True))).astype(np.int32)
+        ends = [start[0], end[0]], [start[1], end[1]]
+        rows = np.rint(np.interp(places, *ends)).astype(np.int32)
         if start[0] == end[0]:
             rows[:] = pick(row, to_row)
         found[places] = pick(found[places], rows)
@@ -149,8 +191,8 @@ def side_of(
     return Side(first, tuple(found[first : last + 1].clip(0, height - 1).tolist()), ground)
 
 
-Steering: TypeAlias = Stroke | Guide | Side
-"""What steers the line: it forbids pixels, and allows others again."""
+Steering: TypeAlias = Stroke | Guide | Side | Left
+"""What steers the line: it forbids pixels, makes them dearer, or allows them again."""
 
 
 def clearings(
@@ -172,7 +214,7 @@ def clearings(
         if not any(one.may_forbid(column, row) for one in strokes):
             continue
         near = [one for one in strokes if one.columns[0] <= column <= one.columns[1]]
-        forbidden = paint(near, height, width, only=column)[0]
+        forbidden = paint(near, height, width, only=column)[0] == FORBIDDEN
         if forbidden[row]:
             allowed = np.flatnonzero(~forbidden)
             away = int(np.abs(allowed - row).min()) if len(allowed) else height
@@ -184,26 +226,26 @@ def paint(
     strokes: Iterable[Steering],
     height: int,
     width: int,
-    onto: Bool | None = None,
+    onto: U8 | None = None,
     *,
     delta: int = 1,
     only: int | None = None,
-) -> Bool:
-    """Pixels that are forbidden, ``(W, H)``, column by column as path tables are.
+) -> U8:
+    """What strokes mark, ``(W, H)``, column by column as path tables are.
 
     Args:
-        strokes: Strokes, guides and sides, in their order.
+        strokes: What steers, in its order.
         height: Rows of the photo.
         width: Its columns.
-        onto: Pixels that earlier ones forbid; it is painted on.
+        onto: What earlier ones have marked; it is painted on.
         delta: Largest change of row between neighbouring columns, in pixels.
         only: The only column to paint; the result is ``(1, H)`` then.
     """
     left, count = (0, width) if only is None else (only, 1)
-    painted: Bool = np.zeros((count, height), np.bool_) if onto is None else onto
+    mask: U8 = np.zeros((count, height), np.uint8) if onto is None else onto
     for one in strokes:
         if isinstance(one, Guide):
-            one.paint(painted.view(np.uint8), left, delta)
+            one.paint(mask, left, delta)
         else:
-            one.paint(painted.view(np.uint8), left)
-    return painted
+            one.paint(mask, left)
+    return mask

@@ -57,6 +57,8 @@ class Pixel(_Request):
     column: Place
     row: Place
     lifted: Place | None = None
+    within: Annotated[int, Field(ge=0, le=1000)] = 0
+    """The anchor is the best edge no more than so many rows away; 0 for exactly here."""
 
 
 class Nothing(_Request):

@@ -65,6 +65,12 @@ export interface Forbid {
   allow?: boolean;
 }
 
+/** What a click came to on the photo as it was. */
+export interface Found {
+  row: number;
+  left?: Left | null;
+}
+
 /** The line lies along a rough stroke. */
 export interface Guide {
   points: [number, number][];
@@ -86,6 +92,12 @@ export interface Learning {
   state: "idle" | "running" | "done" | "failed";
   detail: string;
   changed: number;
+}
+
+/** The piece of the line that a click has left for another ridge, see `steering.Left`. */
+export interface Left {
+  points: [number, number][];
+  radius: number;
 }
 
 /** What is the same for every photo: words and colours that the page shows. */
@@ -111,6 +123,7 @@ export interface MoveAnchor {
   column: number;
   row: number;
   within?: number;
+  found?: Found | null;
   kind: "move";
   from_column: number;
 }
@@ -140,6 +153,7 @@ export interface Pixel {
   column: number;
   row: number;
   lifted?: number | null;
+  within?: number;
 }
 
 /** What was asked for in some columns is dropped. */
@@ -167,6 +181,7 @@ export interface SetAnchor {
   column: number;
   row: number;
   within?: number;
+  found?: Found | null;
   kind: "anchor";
 }
 

@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from annotate.engine.edits import Edits, Span, SpanKind
 from annotate.engine.guide import Guide
-from annotate.engine.steering import Ground, Side, Steering, Stroke
+from annotate.engine.steering import Ground, Left, Side, Steering, Stroke
 from annotate.store.history import State, Step
 from annotate.store.labels import Status
 from annotate.store.operations import Change
@@ -54,6 +54,12 @@ class _Side(_Part):
     ground: Ground
 
 
+class _Left(_Part):
+    points: tuple[tuple[int, int], ...]
+    radius: int
+    of: int
+
+
 class _Checkpoint(_Part):
     version: Literal[1]
     label: int
@@ -61,7 +67,7 @@ class _Checkpoint(_Part):
     width: int
     anchors: list[tuple[int, int]]
     spans: tuple[_Span, ...]
-    strokes: tuple[_Stroke | _Guide | _Side, ...]
+    strokes: tuple[_Stroke | _Guide | _Side | _Left, ...]
     hidden: tuple[tuple[int, int], ...]
     steps: list[tuple[Change, Status]]
     taken: tuple[Change, ...]
@@ -74,7 +80,7 @@ class _Checkpoint(_Part):
     revision: int
 
 
-_STEERING = {_Stroke: Stroke, _Guide: Guide, _Side: Side}
+_STEERING = {_Stroke: Stroke, _Guide: Guide, _Side: Side, _Left: Left}
 
 
 def packed(state: State, label: int) -> bytes:
@@ -123,9 +129,11 @@ def unpacked(data: bytes, label: int, empty: Edits) -> State | None:
     )
 
 
-def _steering(one: Steering) -> _Stroke | _Guide | _Side:
+def _steering(one: Steering) -> _Stroke | _Guide | _Side | _Left:
     if isinstance(one, Guide):
         return _Guide.model_construct(first=one.first, tops=one.tops, bottoms=one.bottoms)
     if isinstance(one, Side):
         return _Side.model_construct(first=one.first, rows=one.rows, ground=one.ground)
+    if isinstance(one, Left):
+        return _Left.model_construct(points=one.points, radius=one.radius, of=one.of)
     return _Stroke.model_construct(points=one.points, radius=one.radius, allow=one.allow)

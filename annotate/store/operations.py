@@ -10,8 +10,8 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, Strict, TypeAdapter
 
+from annotate.engine import steering
 from annotate.engine.edits import Edits
-from annotate.engine.steering import Ground
 from annotate.store.labels import Status
 
 Place: TypeAlias = Annotated[int, Field(ge=-100_000, le=100_000)]
@@ -31,27 +31,51 @@ class _Operation(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class _Aimed(_Operation):
-    """A pixel that somebody points at."""
+class Left(_Operation):
+    """The piece of the line that a click has left for another ridge, see `steering.Left`."""
 
+    points: Points
+    radius: Annotated[int, Field(ge=0, le=1000)]
+
+
+class Found(_Operation):
+    """What a click came to on the photo as it was."""
+
+    row: Place
+    """Row of the anchor."""
+
+    left: Left | None = None
+    """The piece of the line that was left for it."""
+
+
+class _Click(_Operation):
     column: Place
     row: Place
-    within: Annotated[int, Field(ge=0, le=1000, exclude=True)] = 0
-    """The anchor lies on the best edge no more than so many rows away; 0 for exactly here. It is
-    found before the operation is kept, so that the log has the anchor itself, and no such field."""
+    within: Annotated[int, Field(ge=0, le=1000)] = 0
+    """The anchor is the best edge no more than so many rows away; 0 for exactly here."""
+
+    found: Found | None = None
+    """Filled in before the operation is kept, so that the log says all. Logs of before know no such
+    thing: their anchors lie where they were set, and nothing was left."""
+
+    @property
+    def _row(self) -> int:
+        return self.found.row if self.found else self.row
 
 
-class SetAnchor(_Aimed):
+class SetAnchor(_Click):
     """The line passes through a pixel."""
 
     kind: Literal["anchor"] = "anchor"
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the anchor."""
-        return edits.anchor(self.column, self.row)
+        left = self.found and self.found.left
+        piece = steering.Left(tuple(left.points), left.radius, self.column) if left else None
+        return edits.anchor(self.column, self._row, piece)
 
 
-class MoveAnchor(_Aimed):
+class MoveAnchor(_Click):
     """An anchor is dragged."""
 
     kind: Literal["move"] = "move"
@@ -59,7 +83,7 @@ class MoveAnchor(_Aimed):
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the anchor elsewhere."""
-        return edits.move(self.from_column, self.column, self.row)
+        return edits.move(self.from_column, self.column, self._row)
 
 
 class RemoveAnchor(_Operation):
@@ -112,7 +136,7 @@ class Side(_Operation):
 
     kind: Literal["side"] = "side"
     points: Points
-    ground: Ground
+    ground: steering.Ground
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the side."""
