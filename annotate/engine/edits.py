@@ -97,13 +97,9 @@ class Edits:
         strokes = (*self.strokes, left) if left else self.strokes
         return self._with(anchors={**self.anchors, column: row}, spans=spans, strokes=strokes)
 
-    def move(self, from_column: int, column: int, row: int) -> Edits:
-        """Move an anchor to another pixel, with what was left for it."""
-        left = [one for one in self.strokes if isinstance(one, Left) and one.of == from_column]
-        moved = self.remove(from_column).anchor(column, row)
-        if not left:
-            return moved
-        return moved._with(strokes=(*moved.strokes, *(replace(one, of=column) for one in left)))
+    def move(self, from_column: int, column: int, row: int, left: Left | None = None) -> Edits:
+        """Move an anchor to another pixel; what was left for it counts no more."""
+        return self.remove(from_column).anchor(column, row, left)
 
     def remove(self, column: int) -> Edits:
         """Take an anchor away."""

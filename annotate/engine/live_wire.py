@@ -33,7 +33,7 @@ from skyline_viz.constraints import Anchor, PathError, StraightSpan
 from skyline_viz.detection import Detection
 from skyline_viz.diagnosis.other_lines import OtherLine, other_lines
 from skyline_viz.method import Method
-from skyline_viz.path import cheapest_end, trace
+from skyline_viz.path import trace
 from skyline_viz.skyline import Skyline
 
 
@@ -114,7 +114,7 @@ class LiveWire:
         elif edits.strokes[:-1] == self._edits.strokes and edits.strokes:
             rows = self._guided(edits, plan)
         else:
-            rows = self._solved(plan)
+            rows = self._tables.solved(plan)
         self._edits, self._plan, self._rows = edits, plan, rows
 
     @property
@@ -173,21 +173,30 @@ class LiveWire:
         row, left = self.clicked(column, row, within)
         return self._change(lambda edits: edits.anchor(column, row, left))
 
-    def clicked(self, column: int, row: int, within: int = 0) -> tuple[int, Left | None]:
+    def clicked(
+        self, column: int, row: int, within: int = 0, lifted: int | None = None
+    ) -> tuple[int, Left | None]:
         """Row of the anchor that a click sets, and the piece of the line that it leaves behind.
 
         Args:
             column: Column of the click.
             row: Its row.
             within: The anchor is the best edge no more than so many rows away; 0 for exactly here.
+            lifted: Column of an anchor that is being dragged, and counts no more.
+
+        Raises:
+            EditError: There is no anchor in column `lifted`.
         """
+        plan, rows = self._plan, self._rows
+        if lifted is not None:
+            plan = self._planned(self._edits.remove(lifted))
         if self.blind or not (0 <= column < self.width and 0 <= row < self.height):
             return row, None
         if within:
             row = self._tables.best_near(column, row, within)
-        if self._rows is None:
-            return row, None
-        return row, piece_left(self._tables, self._plan, self._rows, column, row)
+        if lifted is not None:
+            rows = self._tables.solved(plan)
+        return row, None if rows is None else piece_left(self._tables, plan, rows, column, row)
 
     def straight(self, column: int, row: int, to_column: int, to_row: int) -> Skyline:
         """Let the line be straight between two pixels, see `Edits.straight`."""
@@ -245,8 +254,11 @@ class LiveWire:
             PathError: Nothing leads there past what is forbidden.
         """
         column, row = int(column), int(row)
-        row, left = self.clicked(column, row, within)
-        if lifted is None and left is not None:
+        row, left = self.clicked(column, row, within, lifted)
+        if left is not None and lifted is not None:
+            moved = self._edits.move(lifted, column, row, left)
+            return self._line(self._tables.solved(self._planned(moved)))
+        if left is not None:
             edits = self._edits.anchor(column, row, left)
             return self._line(self._past(edits, self._planned(edits), column))
         return self._line(self._through(column, row, lifted))
@@ -290,14 +302,14 @@ class LiveWire:
             or not isinstance(guide, Guide)
             or plan.strokes != (*before.strokes, guide)
         ):
-            return self._solved(plan)
+            return self._tables.solved(plan)
         beside = np.ones(self.width, np.bool_)
         beside[guide.first : guide.last + 1] = False
         if (
             not np.array_equal(plan.fixed[beside], before.fixed[beside])
             or not plan.free[~beside].all()
         ):
-            return self._solved(plan)
+            return self._tables.solved(plan)
         rows = self._rows.copy()
         if not self._tables.follow(guide, before, rows):
             raise PathError("no line leads from the guide to what is fixed beside it.")
@@ -315,10 +327,10 @@ class LiveWire:
             or not run.left < left.columns[0] <= left.columns[1] < run.right
             or np.count_nonzero(plan.fixed != before.fixed) != 1
         ):
-            return self._solved(plan)
+            return self._tables.solved(plan)
         rows = self._rows.copy()
         if not self._tables.follow_past(left, column, edits.anchors[column], before, rows):
-            return self._solved(plan)  # a cliff
+            return self._tables.solved(plan)  # a cliff
         return self._joined(rows, *left.columns, before)
 
     def _joined(self, rows: Int, first: int, last: int, plan: Plan) -> Int:
@@ -345,20 +357,17 @@ class LiveWire:
     def _through(self, column: int, row: int, lifted: int | None) -> Int:
         """Rows of the line with one more anchor; walks where the column is free."""
         edits = self._edits if lifted is None else self._edits.remove(lifted)
-        if lifted is None:
-            anchored = edits.anchor(column, row)  # drops the span in which it lies
-        else:
-            anchored = self._edits.move(lifted, column, row)
+        anchored = edits.anchor(column, row)  # drops the span in which it lies
         plan = self._planned(anchored)
         if self.blind or plan.strokes != edits.strokes:  # something is cleared around an anchor
-            return self._solved(plan)
+            return self._tables.solved(plan)
         free = self._planned(anchored.remove(column))
         base = self._rows if free == self._plan else None
-        rows = self._solved(free).copy() if base is None else base.copy()
+        rows = self._tables.solved(free).copy() if base is None else base.copy()
         self.refresh(free)
         run = free.run_at(column)
         if run is None:  # a cliff between two anchors
-            return self._solved(plan)
+            return self._tables.solved(plan)
         rows[column] = row
         self._walk(rows, column, run, self._tables.forward, run.left)
         self._walk(rows, column, run, self._tables.backward, run.right)
@@ -379,30 +388,3 @@ class LiveWire:
         if not np.isfinite(table[column + step, near]).any():
             raise PathError(f"nothing leads to column {column}, row {row} past what is forbidden.")
         trace(table, self._tables.reach, self._tables.link_weight, rows, column, end - step)
-
-    def _solved(self, plan: Plan) -> Int:
-        """Rows of the cheapest line of a plan."""
-        rows = plan.fixed.copy()
-        if plan.runs:  # none of a photo that is labelled blind
-            self._tables.sweep_for(plan, FORWARD)
-        forward, reach, weight = (
-            self._tables.forward,
-            self._tables.reach,
-            self._tables.link_weight,
-        )
-        for run in plan.runs:
-            if run.right_row is None:
-                rows[-1] = cheapest_end(forward[-1])
-                if not np.isfinite(forward[-1, rows[-1]]):
-                    raise PathError("no line leads to the right edge past what is forbidden.")
-                trace(forward, reach, weight, rows, run.right - 1, run.left + 1)
-            else:
-                near = max(run.right_row - self._delta, 0)
-                before = forward[run.right - 1, near : run.right_row + self._delta + 1]
-                if not np.isfinite(before).any():
-                    raise PathError(
-                        f"no line leads to column {run.right}, row {run.right_row} "
-                        "past what is forbidden."
-                    )
-                trace(forward, reach, weight, rows, run.right, run.left + 1)
-        return rows

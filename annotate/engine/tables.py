@@ -18,7 +18,8 @@ from annotate.engine.guide import Guide
 from annotate.engine.plan import Plan, Stale, painted_between
 from annotate.engine.steering import DEARER, FORBIDDEN, FREE, Left, Steering, paint
 from skyline_viz.arrays import F32, F64, U8, Int, runs
-from skyline_viz.path import APART, column_margin, min_marginals, sweep
+from skyline_viz.constraints import PathError
+from skyline_viz.path import APART, cheapest_end, column_margin, min_marginals, sweep, trace
 
 FORWARD, BACKWARD = True, False
 """The table of costs from the left, and the one from the right."""
@@ -80,6 +81,33 @@ class Tables:
             self._tabled[forward] = plan
         for job in jobs:
             job.result()
+
+    def solved(self, plan: Plan) -> Int:
+        """Rows ``(W,)`` of the cheapest line of a plan.
+
+        Raises:
+            PathError: No line is possible past what is forbidden.
+        """
+        rows = plan.fixed.copy()
+        if plan.runs:  # none of a photo that is labelled blind
+            self.sweep_for(plan, FORWARD)
+        forward, reach, weight = self.forward, self.reach, self.link_weight
+        for run in plan.runs:
+            if run.right_row is None:
+                rows[-1] = cheapest_end(forward[-1])
+                if not np.isfinite(forward[-1, rows[-1]]):
+                    raise PathError("no line leads to the right edge past what is forbidden.")
+                trace(forward, reach, weight, rows, run.right - 1, run.left + 1)
+            else:
+                near = max(run.right_row - self._delta, 0)
+                before = forward[run.right - 1, near : run.right_row + self._delta + 1]
+                if not np.isfinite(before).any():
+                    raise PathError(
+                        f"no line leads to column {run.right}, row {run.right_row} "
+                        "past what is forbidden."
+                    )
+                trace(forward, reach, weight, rows, run.right, run.left + 1)
+        return rows
 
     def costs_for(self, plan: Plan) -> F32:
         """``(H, W)`` costs under a plan: infinite where it forbids, as they are where it fixes."""

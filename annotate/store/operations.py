@@ -62,6 +62,11 @@ class _Click(_Operation):
     def _row(self) -> int:
         return self.found.row if self.found else self.row
 
+    @property
+    def _left(self) -> steering.Left | None:
+        left = self.found and self.found.left
+        return steering.Left(tuple(left.points), left.radius, self.column) if left else None
+
 
 class SetAnchor(_Click):
     """The line passes through a pixel."""
@@ -70,9 +75,7 @@ class SetAnchor(_Click):
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the anchor."""
-        left = self.found and self.found.left
-        piece = steering.Left(tuple(left.points), left.radius, self.column) if left else None
-        return edits.anchor(self.column, self._row, piece)
+        return edits.anchor(self.column, self._row, self._left)
 
 
 class MoveAnchor(_Click):
@@ -83,7 +86,7 @@ class MoveAnchor(_Click):
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the anchor elsewhere."""
-        return edits.move(self.from_column, self.column, self._row)
+        return edits.move(self.from_column, self.column, self._row, self._left)
 
 
 class RemoveAnchor(_Operation):

@@ -124,11 +124,10 @@ class Session:
         """An operation with what it comes to on this photo as it is now."""
         if not isinstance(operation, SetAnchor | MoveAnchor):
             return operation
-        row, left = self.wire.clicked(operation.column, operation.row, operation.within)
-        if isinstance(operation, MoveAnchor) or left is None:
-            piece = None
-        else:
-            piece = Left(points=list(left.points), radius=left.radius)
+        lifted = operation.from_column if isinstance(operation, MoveAnchor) else None
+        where = operation.column, operation.row
+        row, left = self.wire.clicked(*where, operation.within, lifted)
+        piece = Left(points=list(left.points), radius=left.radius) if left else None
         return operation.model_copy(update={"found": Found(row=row, left=piece)})
 
     def undo(self, revision: int, id: str | None = None) -> int:  # noqa: A002
