@@ -8,8 +8,9 @@ from typing import Annotated
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
-from annotate.engine.edits import ORIGINS, Stroke
+from annotate.engine.edits import ORIGINS
 from annotate.engine.guide import Guide, along
+from annotate.engine.steering import Side, Stroke
 from annotate.formats import TITLES
 from annotate.store.cards import Card
 from annotate.store.labels import HIDDEN_BY, STATUSES, TAGS, Status
@@ -56,6 +57,8 @@ class Pixel(_Request):
     column: Place
     row: Place
     lifted: Place | None = None
+    within: Annotated[int, Field(ge=0, le=1000)] = 0
+    """The anchor is the best edge no more than so many rows away; 0 for exactly here."""
 
 
 class Nothing(_Request):
@@ -211,6 +214,9 @@ class Document(BaseModel):
     guides: list[tuple[int, int]]
     """First and last column of each guide."""
 
+    sides: tuple[Side, ...]
+    """Columns in which the line keeps to one side of a stroke."""
+
     can_undo: bool
     can_redo: bool
     undo_what: str | None
@@ -247,6 +253,7 @@ class Document(BaseModel):
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
             forbidden=tuple(one for one in edits.strokes if isinstance(one, Stroke)),
             guides=[one.columns for one in edits.strokes if isinstance(one, Guide)],
+            sides=tuple(one for one in edits.strokes if isinstance(one, Side)),
             can_undo=bool(state.steps),
             can_redo=bool(state.taken),
             undo_what=spoken(state.steps[-1].change) if state.steps else None,

@@ -40,6 +40,7 @@ export interface Document {
   spans: ShownSpan[];
   forbidden: Stroke[];
   guides: [number, number][];
+  sides: Side-Output[];
   can_undo: boolean;
   can_redo: boolean;
   undo_what: string | null;
@@ -78,6 +79,12 @@ export interface Forbid {
   allow?: boolean;
 }
 
+/** What a click came to on the photo as it was. */
+export interface Found {
+  row: number;
+  left?: Left | null;
+}
+
 /** The line lies along a rough stroke. */
 export interface Guide {
   points: [number, number][];
@@ -101,6 +108,12 @@ export interface Learning {
   changed: number;
 }
 
+/** The piece of the line that a click has left for another ridge, see `steering.Left`. */
+export interface Left {
+  points: [number, number][];
+  radius: number;
+}
+
 /** What is the same for every photo: words and colours that the page shows. */
 export interface Legend {
   statuses: Status[];
@@ -122,10 +135,12 @@ export interface Margins {
 
 /** An anchor is dragged. */
 export interface MoveAnchor {
-  kind: "move";
-  from_column: number;
   column: number;
   row: number;
+  within?: number;
+  found?: Found | null;
+  kind: "move";
+  from_column: number;
 }
 
 /** The photo is shown: the clock starts. */
@@ -153,6 +168,7 @@ export interface Pixel {
   column: number;
   row: number;
   lifted?: number | null;
+  within?: number;
 }
 
 /** What was asked for in some columns is dropped. */
@@ -177,9 +193,11 @@ export interface Rough {
 
 /** The line passes through a pixel. */
 export interface SetAnchor {
-  kind: "anchor";
   column: number;
   row: number;
+  within?: number;
+  found?: Found | null;
+  kind: "anchor";
 }
 
 /** The photo is accepted, rejected, or to be looked at again. */
@@ -263,6 +281,20 @@ export interface ShownSpan {
   last: number;
 }
 
+/** All above a stroke is sky, or all below it is terrain: the line keeps to the other side. */
+export interface Side-Input {
+  kind: "side";
+  points: [number, number][];
+  ground: "sky" | "terrain";
+}
+
+/** Columns in which all above a stroke is sky, or all below it is terrain. */
+export interface Side-Output {
+  first: number;
+  rows: number[];
+  ground?: "sky" | "terrain";
+}
+
 /** Undo or redo. */
 export interface Step {
   id: string;
@@ -292,6 +324,7 @@ export type Operation =
   | RemoveAnchor
   | Forbid
   | Guide
+  | Side-Input
   | Straight
   | Draw
   | Hide

@@ -14,6 +14,7 @@ const WORDS = {
   remove: (how) => `removing the anchor at column ${how.column}`,
   forbid: (how) => `the stroke of the ${how.allow ? "eraser" : "brush"} at column ${how.points[0][0]}`,
   guide: (how) => `the guide from column ${how.points[0][0]}`,
+  side: (how) => `“all ${how.ground === "sky" ? "above is sky" : "below is terrain"}” from column ${how.points[0][0]}`,
   straight: (how) => `the straight line from column ${how.column} to ${how.to_column}`,
   drawn: (how) => `the drawn line from column ${how.first} to ${how.first + how.rows.length - 1}`,
   hidden: (how) => `${how.hidden ? "hiding" : "showing"} columns ${how.first} to ${how.last}`,

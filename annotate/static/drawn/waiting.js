@@ -34,6 +34,7 @@ const SKETCHES = {
   },
   straight: (how, found) => found.paths.push([[how.column, how.row], [how.to_column, how.to_row]]),
   guide: ({ points }, found) => found.paths.push(points),
+  side: ({ points }, found) => found.paths.push(points),
   drawn: ({ first, rows }, found) => found.paths.push(rows.map((row, at) => [first + at, row])),
   hidden: ({ first, last, hidden }, found) => found.bands.push({ first, last, words: hidden ? "not visible" : "visible" }),
   release: ({ first, last }, found) => found.bands.push({ first, last, words: "dropped" }),
