@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from annotate.engine.edits import ORIGINS
 from annotate.engine.guide import Guide, along
-from annotate.engine.steering import Side, Stroke
+from annotate.engine.steering import Ground, Side, Stroke
 from annotate.formats import TITLES
 from annotate.store.cards import Card
 from annotate.store.labels import HIDDEN_BY, STATUSES, TAGS, Status
@@ -195,6 +195,14 @@ class ShownSpan(BaseModel):
     last: int
 
 
+class ShownSide(BaseModel):
+    """Columns in which all above a stroke is sky, or all below it is terrain."""
+
+    first: int
+    rows: list[int]
+    ground: Ground
+
+
 class Document(BaseModel):
     """A photo with everything that was done to it."""
 
@@ -214,7 +222,7 @@ class Document(BaseModel):
     guides: list[tuple[int, int]]
     """First and last column of each guide."""
 
-    sides: tuple[Side, ...]
+    sides: list[ShownSide]
     """Columns in which the line keeps to one side of a stroke."""
 
     can_undo: bool
@@ -253,7 +261,11 @@ class Document(BaseModel):
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
             forbidden=tuple(one for one in edits.strokes if isinstance(one, Stroke)),
             guides=[one.columns for one in edits.strokes if isinstance(one, Guide)],
-            sides=tuple(one for one in edits.strokes if isinstance(one, Side)),
+            sides=[
+                ShownSide(first=one.first, rows=list(one.rows), ground=one.ground)
+                for one in edits.strokes
+                if isinstance(one, Side)
+            ],
             can_undo=bool(state.steps),
             can_redo=bool(state.taken),
             undo_what=spoken(state.steps[-1].change) if state.steps else None,

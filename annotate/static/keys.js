@@ -46,7 +46,7 @@ export function keyTable(act) {
       act.moveColumn((event.key === "ArrowLeft" ? -1 : 1) * pace(event)), "ArrowLeft", "ArrowRight"),
     one("↑ ↓", "Move its row; with Shift 10, with Ctrl 100 rows", (event) =>
       act.moveRow((event.key === "ArrowUp" ? -1 : 1) * pace(event)), "ArrowUp", "ArrowDown"),
-    one("Enter, Shift+Enter", "Set an anchor at the cursor; and leave the old line around it", (event) => act.anchorHere(event.shiftKey), "Enter"),
+    one("Enter", "Set an anchor just at the cursor", () => act.anchorHere(), "Enter"),
     one("Delete", "Remove the anchor nearest the cursor", () => act.removeNearest(), "Delete", "Backspace"),
     one("J", "A corner of a guide at the cursor; Enter ends the guide", () => act.corner(), "j"),
     one("1 2 3 4", "Show lines along other ridges; then take one", (event) => act.alternative(Number(event.key)), "1", "2", "3", "4"),
@@ -58,21 +58,21 @@ export function keyTable(act) {
     one("F, Shift+F", "Keep the line away from the cursor; allow it again", (event) => act.forbid(event.shiftKey), "f", "F"),
     one("Escape", "Drop the mark and what is being shown", () => act.escape(), "Escape"),
     ...part("Tools"),
-    one("A I B S D H E", "Line, guide, brush, straight, draw, hide, explain", (event) => act.tool(event.key), "a", "i", "b", "s", "d", "h", "e"),
+    one("A I B 5 S D H E", "Line, guide, brush, sky, straight, draw, hide, explain", (event) => act.tool(event.key), "a", "i", "b", "5", "s", "d", "h", "e"),
     one(", .", "Smaller, larger brush", (event) => act.brush(event.key === "."), ",", "."),
   ];
 }
 
 /** What the mouse and fingers do; keys have a table of their own. */
 export const GESTURES = /** @type {const} */ ([
-  ["Click", "The line passes through here"],
+  ["Click", "The line passes through the edge here, and leaves the ridge that it was on"],
   ["Drag along a ridge", "A guide: the line snaps to the ridge"],
   ["Drag an anchor", "Move it; a right click removes it"],
   ["Wheel", "Zoom; sideways, move the photo"],
   ["Right or middle drag, Alt+drag", "Move the photo"],
   ["Click into a strip", "Go to that column"],
-  ["Shift+click", "An anchor, and leave the old line around it"],
-  ["Alt with brush or hide", "Take back: erase, show again"],
+  ["Shift+click", "The line passes just through this pixel"],
+  ["Alt with brush, hide or sky", "The other way: erase, show again, all below is terrain"],
   ["Finger: tap, or aim and let go", "The line passes through there; what is under the finger is magnified"],
   ["Finger: draw along a ridge", "A guide"],
   ["Two fingers", "Zoom and move the photo"],

@@ -40,7 +40,7 @@ export interface Document {
   spans: ShownSpan[];
   forbidden: Stroke[];
   guides: [number, number][];
-  sides: Side-Output[];
+  sides: ShownSide[];
   can_undo: boolean;
   can_redo: boolean;
   undo_what: string | null;
@@ -274,6 +274,13 @@ export interface ShownProgress {
   seconds_left: number | null;
 }
 
+/** Columns in which all above a stroke is sky, or all below it is terrain. */
+export interface ShownSide {
+  first: number;
+  rows: number[];
+  ground: "sky" | "terrain";
+}
+
 /** A span. */
 export interface ShownSpan {
   kind: string;
@@ -282,17 +289,10 @@ export interface ShownSpan {
 }
 
 /** All above a stroke is sky, or all below it is terrain: the line keeps to the other side. */
-export interface Side-Input {
+export interface Side {
   kind: "side";
   points: [number, number][];
   ground: "sky" | "terrain";
-}
-
-/** Columns in which all above a stroke is sky, or all below it is terrain. */
-export interface Side-Output {
-  first: number;
-  rows: number[];
-  ground?: "sky" | "terrain";
 }
 
 /** Undo or redo. */
@@ -324,7 +324,7 @@ export type Operation =
   | RemoveAnchor
   | Forbid
   | Guide
-  | Side-Input
+  | Side
   | Straight
   | Draw
   | Hide

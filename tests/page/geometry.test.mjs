@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { chance } from "./model.mjs";
-import { alongOldLine, brushed, drawn, nearest, thinned, uncertainty } from "../../annotate/static/basics/geometry.js";
+import { brushed, drawn, nearest, thinned, uncertainty } from "../../annotate/static/basics/geometry.js";
 
 const line = (length) => Array.from({ length }, (_, at) => [at, at]);
 
@@ -53,22 +53,6 @@ test("the nearest anchor within reach is found", () => {
   assert.deepEqual(nearest([[2, 0], [13, 0]], away, 3), [13, 0]);
   assert.equal(nearest([[2, 0], [13, 0]], away, 2), undefined);
   assert.equal(nearest([], away), undefined);
-});
-
-test("the old line around a new anchor is kept out up to an eighth of the photo, and not to its neighbours", () => {
-  const shown = { width: 800, height: 520, rows: Array(800).fill(100), anchors: [] };
-  const { points, radius } = alongOldLine(shown, [400, 150]);
-  assert.equal(radius, 2);
-  assert.deepEqual([points[0], points.at(-1)], [[300, 100], [498, 100]]); // every third column
-  const between = alongOldLine({ ...shown, anchors: [[350, 100], [420, 100]] }, [400, 150]).points;
-  assert.deepEqual([between[0][0], between.at(-1)[0]], [363, 405]); // an eighth of the room is left at each
-  assert.deepEqual(alongOldLine(shown, [2, 150]).points[0], [0, 100]);
-});
-
-test("nothing is kept out where the line is close already", () => {
-  const shown = { width: 800, height: 520, rows: Array(800).fill(100), anchors: [] };
-  assert.deepEqual(alongOldLine(shown, [400, 104]).points, []);
-  assert.notDeepEqual(alongOldLine(shown, [400, 105]).points, []);
 });
 
 test("a bar is as uncertain as its least certain column, whether it has many or shares one", () => {

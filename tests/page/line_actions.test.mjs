@@ -43,25 +43,17 @@ test("the first arrow shows the cursor, the next ones move it, and Enter sets an
   act.moveRow(-7);
   assert.deepEqual(labelling.said.at(-1), "Column 210, row 93.");
   assert.deepEqual(previewer.asked, [[210, 93]]);
-  act.anchorHere(false);
-  assert.deepEqual(labelling.applied, [{ kind: "anchor", column: 210, row: 93 }]);
+  act.anchorHere();
+  assert.deepEqual(labelling.applied, [{ kind: "anchor", column: 210, row: 93, within: 0 }]);
   assert.deepEqual(selection.now.cursor, { column: 210, row: null });
 });
 
 test("what an anchor will look like is shown at once where that is known", () => {
   previewer.part = { first: 0, rows: [1] };
-  act.setAnchor(5, 6);
-  act.setAnchor(7, 8, true); // with a stroke before it, the line will be another one
-  assert.deepEqual(labelling.applied.map((one) => Array.isArray(one)), [true, false, false]);
-});
-
-test("an anchor that leaves the old line around brushes along that", () => {
-  act.setAnchor(200, 150, true);
-  const [stroke, anchor] = labelling.applied;
-  assert.deepEqual([stroke.kind, stroke.allow, stroke.points[0], stroke.points.at(-1)], ["forbid", false, [150, 100], [249, 100]]);
-  assert.deepEqual(anchor, { kind: "anchor", column: 200, row: 150 });
-  act.setAnchor(200, 102, true); // it runs there already
-  assert.deepEqual(labelling.applied.length, 3);
+  act.setAnchor(5, 6, 2);
+  previewer.part = null;
+  act.setAnchor(7, 8);
+  assert.deepEqual(labelling.applied, [[{ kind: "anchor", column: 5, row: 6, within: 2 }, { first: 0, rows: [1] }], { kind: "anchor", column: 7, row: 8, within: 0 }]);
 });
 
 test("a straight line needs a mark, which is used up by it", () => {

@@ -63,12 +63,12 @@ function drag(places, how = {}) {
 
 test("a click, also of a hand that trembles, is one", () => {
   drag([[100, 60], [102, 62]]);
-  assert.deepEqual(done, [["anchor", 102, 62, false]]);
+  assert.deepEqual(done, [["anchor", 102, 62, 4]]);
 });
 
 test("with the mouse over the photo, the line through its pixel is shown; over an anchor it is not", () => {
   tell("pointermove", 100, 60);
-  assert.deepEqual(previewer.asked, [[100, 60]]);
+  assert.deepEqual(previewer.asked, [[100, 60, 4]]);
   tell("pointermove", 51, 101);
   assert.equal(previewer.cleared, 1);
   labelling.waiting = 1; // the line is another one soon
@@ -92,7 +92,7 @@ test("a press that goes on is a stroke along a ridge, from where it began; with 
 
 test("a finger aims within a fingertip, and draws beyond it", () => {
   drag([[100, 60], [130, 80]], finger(1));
-  assert.deepEqual(done.shift(), ["anchor", 130, 80, false]);
+  assert.deepEqual(done.shift(), ["anchor", 130, 80, 8]);
   drag([[100, 60], [130, 80], [170, 80]], finger(1));
   assert.deepEqual(done.map(([name]) => name), ["guide"]);
 });
@@ -118,8 +118,8 @@ test("an anchor is hit within ten pixels by the mouse and 24 by a finger", () =>
   drag([[59, 100], [80, 110]]);
   drag([[73, 100], [80, 110]], finger(1));
   drag([[73, 100]]);
-  assert.deepEqual(labelling.applied, [50, 50].map((from) => ({ kind: "move", from_column: from, column: 80, row: 110 })));
-  assert.deepEqual(done, [["anchor", 73, 100, false]]);
+  assert.deepEqual(labelling.applied, [4, 8].map((within) => ({ kind: "move", from_column: 50, column: 80, row: 110, within })));
+  assert.deepEqual(done, [["anchor", 73, 100, 4]]);
 });
 
 test("a right click removes an anchor, and moves the photo elsewhere", () => {

@@ -5,7 +5,7 @@ import { beforeEach, test } from "node:test";
 
 import { Asked } from "./stubs.mjs";
 import { Selection } from "../../annotate/static/labelled/selection.js";
-import { brushRadius } from "../../annotate/static/gestures/strokes.js";
+import { brushRadius, snapping } from "../../annotate/static/gestures/strokes.js";
 import { DragTool, PanTool, TOOLS, makeTools } from "../../annotate/static/gestures/tools.js";
 
 let bench;
@@ -42,11 +42,11 @@ test("every button has a tool, and every tool another key", () => {
   assert.equal(new Set(TOOLS.map(({ key }) => key)).size, TOOLS.length);
 });
 
-test("a click sets an anchor, with Shift one that leaves the old line around", () => {
+test("a click sets an anchor on the edge beside it, with Shift just there", () => {
   const { anchor } = makeTools(bench);
   use(anchor, at(5, 6, { moved: false }));
   use(anchor, at(7, 8, { moved: false, shift: true }));
-  assert.deepEqual(done, [["anchor", 5, 6, false], ["anchor", 7, 8, true]]);
+  assert.deepEqual(done, [["anchor", 5, 6, 2], ["anchor", 7, 8, 0]]);
 });
 
 test("a drag along a ridge is a guide, which is shown on the way", () => {
@@ -73,9 +73,9 @@ test("a finger aims before it sets an anchor, and is magnified", () => {
   assert.deepEqual(bench.selection.now.finger, [10, 12]);
   anchor.move(at(9, 3, { finger: true }));
   assert.deepEqual(bench.selection.now.cursor, { column: 9, row: 3 });
-  assert.deepEqual(bench.previewer.asked, [[5, 6, null], [9, 3, null]]);
+  assert.deepEqual(bench.previewer.asked, [[5, 6, 4, null], [9, 3, 4, null]]);
   anchor.end(at(9, 3, { finger: true }));
-  assert.deepEqual(done, [["anchor", 9, 3, false]]);
+  assert.deepEqual(done, [["anchor", 9, 3, 4]]);
 });
 
 test("an anchor that is dragged is moved, and shown where it goes", () => {
@@ -83,9 +83,9 @@ test("an anchor that is dragged is moved, and shown where it goes", () => {
   drag.start(at(5, 6, { moved: false }));
   drag.move(at(8, 9));
   assert.equal(bench.selection.now.dragged, 5);
-  assert.deepEqual(bench.previewer.asked, [[8, 9, 5]]);
+  assert.deepEqual(bench.previewer.asked, [[8, 9, 2, 5]]);
   drag.end(at(8, 9));
-  assert.deepEqual(done, [{ kind: "move", from_column: 5, column: 8, row: 9 }]);
+  assert.deepEqual(done, [{ kind: "move", from_column: 5, column: 8, row: 9, within: 2 }]);
 });
 
 test("an anchor that is clicked takes the cursor", () => {
@@ -121,6 +121,21 @@ test("a line that is drawn is sent a row a column; a click draws none", () => {
   assert.equal(done.length, 1);
 });
 
+test("all above a stroke is sky, with Alt all below it is terrain; a click says nothing", () => {
+  const { side } = makeTools(bench);
+  use(side, at(4, 10), at(9, 12));
+  use(side, at(4, 10, { alt: true }), at(9, 12));
+  use(side, at(4, 10));
+  assert.deepEqual(done, ["sky", "terrain"].map((ground) => ({ kind: "side", points: [[4, 10], [9, 12]], ground })));
+});
+
+test("a click means an edge within a few screen pixels, and of a finger within more", () => {
+  const hand = { finger: false, shift: false };
+  assert.deepEqual([0.25, 1, 32].map((scale) => snapping(scale, hand)), [16, 4, 1]);
+  assert.ok(snapping(1, { ...hand, finger: true }) > 4);
+  assert.equal(snapping(1, { ...hand, shift: true }), 0);
+});
+
 test("a straight piece goes from press to release, and needs two columns", () => {
   const { straight } = makeTools(bench);
   use(straight, at(4, 10), at(9, 9), at(8, 12));
@@ -139,7 +154,7 @@ test("columns are hidden in either direction, and shown again with Alt; one colu
 });
 
 test("a stroke that is dropped on the way comes to nothing", () => {
-  for (const tool of ["anchor", "forbid", "guide", "straight", "drawn", "hidden"].map((id) => makeTools(bench)[id])) {
+  for (const tool of ["anchor", "forbid", "guide", "side", "straight", "drawn", "hidden"].map((id) => makeTools(bench)[id])) {
     tool.start(at(1, 1));
     tool.move(at(4, 4, { far: true }));
     bench.selection.clear(); // Escape

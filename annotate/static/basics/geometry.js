@@ -1,6 +1,5 @@
 /** Pixels, strokes and columns as numbers: nothing here knows a screen or a server. */
 
-/** @import { Document } from "../types.js" */
 /** @typedef {[number, number]} Point - Column and row of a pixel, or x and y on the screen. */
 
 const MOST = 2000; // points of a stroke that are sent
@@ -70,27 +69,6 @@ export function drawn(points) {
 export function nearest(anchors, away, reach = Infinity) {
   const found = anchors.toSorted((a, b) => away(a) - away(b))[0];
   return found && away(found) <= reach ? found : undefined;
-}
-
-/**
- * The stroke of a thin brush along the old line around a new anchor: up to an eighth of the photo away, and
- * not to the neighbouring anchors. Empty where the line runs close to the new anchor already.
- *
- * @param {Pick<Document, "width" | "height" | "anchors"> & {rows: number[]}} shown
- * @param {Point} anchor
- * @returns {{points: Point[], radius: number}}
- */
-export function alongOldLine({ width, height, rows, anchors }, [column, row]) {
-  const radius = Math.max(Math.round(height / 260), 2);
-  if (Math.abs(rows[column] - row) <= 2 * radius) return { points: [], radius };
-  const room = Math.round(width / 8);
-  const fixed = anchors.map(([one]) => one);
-  const first = Math.max(column - room, ...fixed.filter((one) => one < column).map((one) => one + room / 8), 0);
-  const last = Math.min(column + room, ...fixed.filter((one) => one > column).map((one) => one - room / 8), width - 1);
-  /** @type {Point[]} */
-  const points = [];
-  for (let at = Math.ceil(first); at <= last; at += 3) points.push([at, rows[at]]);
-  return { points, radius };
 }
 
 /**

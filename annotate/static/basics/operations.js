@@ -38,6 +38,7 @@ const DONE = {
   move: (how) => `The anchor is at column ${how.column}, row ${how.row}.`,
   remove: (how) => `The anchor at column ${how.column} is removed.`,
   forbid: (how) => (how.allow ? "The line may go there again." : "The line stays out of there."),
+  side: (how) => (how.ground === "sky" ? "All above is sky there." : "All below is terrain there."),
   straight: (how) => `The line is straight from column ${Math.min(how.column, how.to_column)} to ${Math.max(how.column, how.to_column)}.`,
   drawn: (how) => `The line lies as drawn from column ${how.first} to ${how.first + how.rows.length - 1}.`,
   hidden: (how) => `Columns ${how.first} to ${how.last} are ${how.hidden ? "not visible" : "visible"}.`,

@@ -13,8 +13,8 @@ const CELL = 8; // pixels between two lines
  *
  * @param {Document} document
  */
-export function hatched({ width, height, forbidden }) {
-  if (!forbidden.length) return null;
+export function hatched({ width, height, forbidden, sides }) {
+  if (!forbidden.length && !sides.length) return null;
   const scale = Math.min(1, LONGEST / width);
   const canvas = new OffscreenCanvas(Math.ceil(width * scale), Math.ceil(height * scale));
   const pen = hiddenPenOf(canvas);
@@ -26,6 +26,14 @@ export function hatched({ width, height, forbidden }) {
     pen.beginPath();
     follow(pen, brushed(points));
     pen.stroke();
+  }
+  pen.globalCompositeOperation = "source-over";
+  for (const { first, rows, ground } of sides) {
+    const far = ground === "sky" ? 0 : height;
+    const near = ground === "sky" ? 0 : 1; // the line may lie in the row of the stroke itself
+    pen.beginPath();
+    follow(pen, [[first, far], ...rows.map((row, at) => /** @type {[number, number]} */ ([first + at + 0.5, row + near])), [first + rows.length, far]]);
+    pen.fill();
   }
   pen.globalCompositeOperation = "source-in";
   pen.setTransform(1, 0, 0, 1, 0, 0);

@@ -1,7 +1,7 @@
 /** What is done to the line by key: a cursor, a mark, anchors and spans between them. */
 
 import { doubts, nextDoubt } from "../basics/doubts.js";
-import { alongOldLine, nearest } from "../basics/geometry.js";
+import { nearest } from "../basics/geometry.js";
 import { done } from "../basics/operations.js";
 import { guideActions } from "./guides.js";
 import { otherLines } from "./other_lines.js";
@@ -89,23 +89,17 @@ export function lineActions({ labelling, view, selection, previewer, brush, focu
       labelling.say(`The anchor at column ${column} has the cursor: drag it, or Delete removes it. Zoom in to set another one beside it.`);
     },
     /**
-     * Set an anchor. With `across`, keep the line on this side of where it runs now: a thin stroke of
-     * the brush goes along the old line, up to the neighbouring anchors or an eighth of the photo away.
+     * Set an anchor on the best edge that is no more than so many rows away, or just there.
      *
      * @param {number} column
      * @param {number} row
-     * @param {boolean} [across]
+     * @param {number} [within]
      */
-    setAnchor(column, row, across = false) {
-      const { rows } = shown();
-      if (across && rows) {
-        const stroke = alongOldLine({ ...shown(), rows }, [column, row]);
-        if (stroke.points.length) labelling.apply({ kind: "forbid", ...stroke, allow: false });
-      }
-      const part = across ? null : previewer.known("preview", { column, row, lifted: null });
+    setAnchor(column, row, within = 0) {
+      const part = previewer.known("preview", { column, row, within, lifted: null });
       previewer.clear();
       if (selection.now.cursor) selection.moveTo(shown(), column);
-      if (labelling.apply({ kind: "anchor", column, row }, part)) labelling.say(`Anchor at column ${column}, row ${row}.`);
+      if (labelling.apply({ kind: "anchor", column, row, within }, part)) labelling.say(`Anchor at column ${column}.`);
     },
     /** @param {number} step */
     uncertain(step) {
@@ -134,10 +128,9 @@ export function lineActions({ labelling, view, selection, previewer, brush, focu
       showHere();
       labelling.say(`Column ${column}, row ${place()[1]}.`);
     },
-    /** @param {boolean} across */
-    anchorHere(across) {
+    anchorHere() {
       if (selection.now.corners.length) act.finishGuide();
-      else act.setAnchor(...place(), across);
+      else act.setAnchor(...place());
     },
     removeNearest() {
       if (selection.now.corners.length) return act.dropCorner();

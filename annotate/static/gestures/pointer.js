@@ -1,6 +1,7 @@
 /** Mouse, pen and fingers on the photo: which tool follows them, and zoom and pan. */
 
 import { nearest } from "../basics/geometry.js";
+import { snapping } from "./strokes.js";
 import { DragTool, PanTool, makeTools } from "./tools.js";
 
 /** @import { Point } from "../basics/geometry.js" */
@@ -149,7 +150,7 @@ export class Pointer {
     const pixel = view.toPixel(...this.#at(event));
     if (selection.now.corners.length) line.showGuide(pixel);
     else if (this.#chosen !== "anchor") return;
-    else if (this.#anchorAt(event) === undefined) previewer.ask(...pixel);
+    else if (this.#anchorAt(event) === undefined) previewer.ask(...pixel, snapping(view.scale, { finger: false, shift: event.shiftKey }));
     else previewer.clear();
   }
 

@@ -30,17 +30,28 @@ import { drawn, thinned, within } from "../basics/geometry.js";
  * @typedef {object} Bench - What the tools work with.
  * @property {Selection} selection
  * @property {{scale: number, pan: (x: number, y: number) => void}} view
- * @property {{ask: (column: number, row: number, lifted?: number | null) => void, follow: (rough: Rough) => void, clear: () => void}} previewer
+ * @property {{ask: (column: number, row: number, within?: number, lifted?: number | null) => void, follow: (rough: Rough) => void, clear: () => void}} previewer
  * @property {{readonly radius: number}} brush - In screen pixels.
  * @property {(operation: Operation) => unknown} apply
  * @property {(rough: Rough) => void} guide - Let the line lie along a stroke.
  * @property {(pixel: Point) => void} corner - Go on with a guide that is made corner by corner.
  * @property {(pixel: Point) => void} explain - Tell what the detector thought of a pixel.
- * @property {(column: number, row: number, across: boolean) => void} anchor - Set an anchor.
+ * @property {(column: number, row: number, within: number) => void} anchor - Set an anchor, on the best edge so many rows away at most.
  * @property {(column: number) => void} goTo - Put the cursor into a column.
  */
 
+const SNAP = { mouse: 4, finger: 8 }; // screen pixels within which a click means an edge
 const WIDEST = 1000; // radius in pixels of the photo, as the server takes it
+
+/**
+ * How many rows a click may be off the edge that it means; none with Shift, which means just this pixel.
+ *
+ * @param {number} scale
+ * @param {{finger: boolean, shift: boolean}} contact
+ */
+export function snapping(scale, { finger, shift }) {
+  return shift ? 0 : within(Math.round((finger ? SNAP.finger : SNAP.mouse) / scale), 1, WIDEST);
+}
 
 /**
  * Radius of the brush in pixels of the photo, which looks the same at every zoom.
@@ -79,6 +90,33 @@ export class BrushTool {
     if (!stroke) return;
     const { points, radius, allow } = stroke;
     this.#bench.apply({ kind: "forbid", points: thinned(points), radius, allow });
+  }
+}
+
+/** Says that all above a stroke is sky; with Alt, that all below it is terrain. @implements {Tool} */
+export class SideTool {
+  #bench;
+
+  /** @param {Bench} bench */
+  constructor(bench) {
+    this.#bench = bench;
+  }
+
+  /** @param {Contact} contact */
+  start(contact) {
+    this.#bench.selection.begin("side", contact.pixel, { allow: contact.alt });
+    touch(this.#bench, contact);
+  }
+
+  /** @param {Contact} contact */
+  move(contact) {
+    this.#bench.selection.extend(contact.pixel);
+    touch(this.#bench, contact);
+  }
+
+  end() {
+    const { points = [], allow = false } = this.#bench.selection.now.stroke ?? {};
+    if (points.length > 1) this.#bench.apply({ kind: "side", points: thinned(points), ground: allow ? "terrain" : "sky" });
   }
 }
 

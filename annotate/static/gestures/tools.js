@@ -1,15 +1,16 @@
 /** The tools: what a press on the photo begins, how it follows the pointer, and what comes of it. */
 
 import { GuideStroke } from "./guides.js";
-import { BrushTool, DrawTool, SpanTool, touch } from "./strokes.js";
+import { BrushTool, DrawTool, SideTool, SpanTool, snapping, touch } from "./strokes.js";
 
 /** @import { Bench, Contact, Tool } from "./strokes.js" */
 
 /** The tools, in the order of their buttons. */
 export const TOOLS = /** @type {const} */ ([
-  { id: "anchor", name: "Line", key: "A", title: "Click: the line passes through here. Drag along a ridge: the line snaps to it. Drag an anchor to move it, right-click to remove it." },
+  { id: "anchor", name: "Line", key: "A", title: "Click: the line passes through the edge here; with Shift, just here. Drag along a ridge: the line snaps to it. Drag an anchor to move it, right-click to remove it." },
   { id: "guide", name: "Guide", key: "I", title: "Click corners along a ridge, the last one twice: the line snaps to it. Or drag along the ridge." },
   { id: "forbid", name: "Brush", key: "B", title: "Paint where the line must not go; with Alt, erase." },
+  { id: "side", name: "Sky", key: "5", title: "Drag below the sky: all above is sky; with Alt, all below is terrain." },
   { id: "straight", name: "Straight", key: "S", title: "Drag from one end of a straight piece to the other." },
   { id: "drawn", name: "Draw", key: "D", title: "Drag along the line: it lies just where you draw." },
   { id: "hidden", name: "Hide", key: "H", title: "Drag across columns in which the line cannot be seen; with Alt, show them again." },
@@ -71,9 +72,9 @@ export class AnchorTool {
   }
 
   /** @param {Contact} contact */
-  end({ pixel, shift, moved }) {
+  end(contact) {
     if (this.#guide) this.#guide.end();
-    else if (!this.#first?.alt || !moved) this.#bench.anchor(...pixel, shift);
+    else if (!this.#first?.alt || !contact.moved) this.#bench.anchor(...contact.pixel, snapping(this.#bench.view.scale, contact));
   }
 
   /** @param {Contact} contact */
@@ -168,8 +169,10 @@ export class DragTool {
   }
 
   /** @param {Contact} contact */
-  end({ pixel: [column, row], moved }) {
-    if (moved) this.#bench.apply({ kind: "move", from_column: this.#column, column, row });
+  end(contact) {
+    const [column, row] = contact.pixel;
+    const within = snapping(this.#bench.view.scale, contact);
+    if (contact.moved) this.#bench.apply({ kind: "move", from_column: this.#column, column, row, within });
     else this.#bench.goTo(this.#column);
   }
 }
@@ -185,6 +188,7 @@ export function makeTools(bench) {
     anchor: new AnchorTool(bench),
     guide: new GuideTool(bench),
     forbid: new BrushTool(bench),
+    side: new SideTool(bench),
     straight: new SpanTool(bench, "straight"),
     drawn: new DrawTool(bench),
     hidden: new SpanTool(bench, "hidden"),
@@ -202,5 +206,5 @@ export function makeTools(bench) {
 function aim(bench, contact, dragged = null) {
   bench.selection.aim(contact.pixel, dragged);
   touch(bench, contact);
-  bench.previewer.ask(...contact.pixel, dragged);
+  bench.previewer.ask(...contact.pixel, snapping(bench.view.scale, contact), dragged);
 }

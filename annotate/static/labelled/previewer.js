@@ -43,14 +43,16 @@ export class Previewer {
   }
 
   /**
-   * Ask for the line through a pixel; `lifted` is the column of the anchor that is dragged.
+   * Ask for the line through a pixel, or through the best edge some rows away; `lifted` is the column of the anchor
+   * that is dragged.
    *
    * @param {number} column
    * @param {number} row
+   * @param {number} [within]
    * @param {number | null} [lifted]
    */
-  ask(column, row, lifted = null) {
-    this.#want({ what: "preview", body: { column, row, lifted } });
+  ask(column, row, within = 0, lifted = null) {
+    this.#want({ what: "preview", body: { column, row, within, lifted } });
   }
 
   /**

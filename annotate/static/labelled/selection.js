@@ -14,7 +14,7 @@ import { within } from "../basics/geometry.js";
 
 /**
  * @typedef {object} Stroke - What is being drawn.
- * @property {"forbid" | "guide" | "straight" | "drawn" | "hidden"} kind
+ * @property {"forbid" | "guide" | "side" | "straight" | "drawn" | "hidden"} kind
  * @property {Point[]} points
  * @property {boolean} allow - Whether it takes back what other strokes of its kind did.
  * @property {number} radius - Of the brush, or what the hand is uncertain by.
