@@ -7,11 +7,11 @@ from collections.abc import Callable
 from fastapi import APIRouter, HTTPException, Response
 
 from annotate.server.dependencies import Bench, Column, PhotoId, Row
+from annotate.server.explained import Explained
 from annotate.server.messages import (
     Alternatives,
     Apply,
     Document,
-    Explained,
     Margins,
     Part,
     Pixel,

@@ -73,8 +73,9 @@ def test_what_a_tool_did_is_said(page):
     page.drag((20, 160), (60, 140))
     page.says("The line is straight from column 20 to 60.")
     page.keys("a")
-    page.page.mouse.click(*page.at(200, 80))
-    page.saved()
+    page.page.keyboard.down("Shift")
+    page.click(200, 80)
+    page.page.keyboard.up("Shift")
     page.page.mouse.click(*page.at(200, 80))
     page.says("The anchor at column 200 has the cursor")
     assert page.document()["anchors"] == [[200, 80]]
