@@ -25,7 +25,10 @@ export class Overlay {
   constructor(labelling, photo) {
     this.#labelling = labelling;
     this.#photo = photo;
-    labelling.on("legend", ({ stages }) => offer(this.#choice, [NONE, ...Object.keys(stages)]));
+    labelling.on("legend", ({ stages }) => {
+      this.#choice.append(new Option("no overlay", NONE));
+      offer(this.#choice, Object.keys(stages));
+    });
     labelling.on("document", ({ fresh }) => {
       if (!fresh) return;
       this.#layer = null; // it was of the photo before
