@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 
 import numpy as np
 
@@ -130,7 +130,8 @@ def measured(data: Path, folder: Path | None) -> str:
         f"{markdown(['source', 'photos', *noises, 'over 4'], told)}\n\n"
         "Gross misses, and in how many the truth is among the four numbered lines:\n\n"
         f"{markdown(['detector', 'gross misses', 'within 1 % of the height', 'within 2 %'], held)}"
-        f"\n\nPreview of a guide, at each point of a stroke across the photo:\n\n{previews()}\n"
+        "\n\nProcessor time of the preview of a guide, at each point of a stroke across the photo:"
+        f"\n\n{previews()}\n"
     )
 
 
@@ -166,7 +167,7 @@ def _nearest(source: Source, detector: Detector) -> list[float]:
 
 
 def previews(sizes: Sequence[tuple[int, int]] = ((1024, 1024), (3024, 4032))) -> str:
-    """Milliseconds of a preview of a guide while it grows, on photos of some heights and widths."""
+    """Processor time of a preview of a guide while it grows, on photos of some sizes."""
     rows = []
     for height, width in sizes:
         wire = LiveWire(hills(1, height, width), Detector())
@@ -175,9 +176,9 @@ def previews(sizes: Sequence[tuple[int, int]] = ((1024, 1024), (3024, 4032))) ->
         points = [(at, int(line[at]) + height // 20) for at in range(0, width, width // 80)]
         wire.preview_guide(points[:2])
         for count in range(2, len(points)):
-            start = perf_counter()
+            start = process_time()
             wire.preview_guide(points[:count])
-            spent.append((perf_counter() - start) * 1000)
+            spent.append((process_time() - start) * 1000)
         middle, late = np.percentile(spent, [50, 95])
         rows.append([f"{width}x{height}", f"{middle:.1f}", f"{late:.1f}"])
-    return markdown(["photo", "median ms", "95th percentile"], rows)
+    return markdown(["photo", "median, ms", "95th percentile, ms"], rows)
