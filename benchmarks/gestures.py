@@ -99,9 +99,10 @@ def measured(data: Path, folder: Path | None) -> str:
         folder: Folder of sky models that have not seen a source.
     """
     models = Models(folder)
-    given = [one for one in sources(data) if one.place != RENDERED]
+    everything = sources(data)
+    left_out = LeftOut(everything)
+    given = [one for one in everything if one.place != RENDERED]
     given = [replace(one, items=one.items[::3]) if one.clips else one for one in given]
-    left_out = LeftOut(given)
     told, held = [], []
     total: dict[int, list[int]] = {noise: [] for noise in NOISES}
     for source in given:
