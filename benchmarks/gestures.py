@@ -27,7 +27,7 @@ from testing.labelling import hills
 
 GOAL = 0.01  # A_err at which the robot stops, as a part of the height
 MOST = 15  # gestures after which it gives up
-WIDE = 0.1  # part of the width from which on a wrong span is worth a guide
+WIDE = 0.1  # part of the width from which on a wrong span is worth a guide, and a gap ends it
 STAGE = 1166, 661  # width and height of the photo's place on a page of 1440x900
 HAND = 8  # screen pixels: radius of a guide
 ROUGH = 4  # screen pixels to which a guide follows the truth
@@ -76,7 +76,7 @@ def gestures(wire: LiveWire, truth: Skyline, hand: Hand) -> int:
 
 def guided(wire: LiveWire, truth: Skyline, hand: Hand, errors: F64) -> bool:
     """Whether a guide was led along the truth where the line is wrong over a wide span."""
-    wrong = runs(np.nan_to_num(errors) > GOAL * wire.height, gap=wire.width // 50)
+    wrong = runs(np.nan_to_num(errors) > GOAL * wire.height, gap=round(WIDE * wire.width))
     first, last = max(wrong, key=lambda run: np.nansum(errors[run[0] : run[1] + 1]), default=(0, 0))
     if last - first < WIDE * wire.width:
         return False
@@ -127,7 +127,7 @@ def measured(data: Path, folder: Path | None) -> str:
     return (
         "## Gestures of a robot, with whole sources left out\n\n"
         "It stops at an A_err of 1 % of the height. Where more than a tenth of the width is wrong "
-        "in one piece it begins with a guide, else with a click, and goes on with clicks.\n\n"
+        "(gaps of less count) it begins with a guide, else with a click, and goes on with clicks.\n\n"
         f"{markdown(['source', 'photos', *noises, 'over 4'], told)}\n\n"
         "Gross misses, and in how many the truth is among the four numbered lines:\n\n"
         f"{markdown(['detector', 'gross misses', 'within 1 % of the height', 'within 2 %'], held)}"
