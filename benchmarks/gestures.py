@@ -127,7 +127,8 @@ def measured(data: Path, folder: Path | None) -> str:
     return (
         "## Gestures of a robot, with whole sources left out\n\n"
         "It stops at an A_err of 1 % of the height. Where more than a tenth of the width is wrong "
-        "(gaps of less count) it begins with a guide, else with a click, and goes on with clicks.\n\n"
+        "(gaps of less count) it begins with a guide, else with a click, and goes on with "
+        "clicks.\n\n"
         f"{markdown(['source', 'photos', *noises, 'over 4'], told)}\n\n"
         "Gross misses, and in how many the truth is among the four numbered lines:\n\n"
         f"{markdown(['detector', 'gross misses', 'within 1 % of the height', 'within 2 %'], held)}"
