@@ -21,6 +21,7 @@ from skyline_viz.skyline import Skyline
 _PRICE = 3.0  # what a pixel of the line costs more while it is tried, in mean costs of the proposal
 _LEAST = 0.1  # the same where the proposal costs next to nothing
 _REACH = 4  # the line is tried on either side of the click: a part of the width, one of so many
+_MOST = 500  # columns on either side at the most, so that a preview follows the hand
 _BAND = 60  # and in a band of a part of the height, one of so many
 _WITHIN = 1.0  # pixels to which the piece is known that is left
 _ENDS = 2  # columns at either end in which a line crosses over to the other ridge
@@ -56,8 +57,9 @@ def piece_left(tables: Tables, plan: Plan, rows: Int, column: int, row: int) -> 
     width, height = len(rows), tables.allowed.shape[1]
     radius = min(max(height // _BAND, APART), away // 2)
     beside = radius + 2  # how far a thick line reaches beyond its end
-    first = max(column - width // _REACH, 0 if run.left < 0 else run.left + beside)
-    last = min(column + width // _REACH, run.right - (1 if run.right == width else beside))
+    reach = min(width // _REACH, _MOST)
+    first = max(column - reach, 0 if run.left < 0 else run.left + beside)
+    last = min(column + reach, run.right - (1 if run.right == width else beside))
     if not first <= column <= last:
         return None
     tried = Left(thinned(first, rows[first : last + 1], _WITHIN), radius, column)

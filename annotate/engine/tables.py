@@ -27,6 +27,7 @@ FORWARD, BACKWARD = True, False
 _POOL = ThreadPoolExecutor(2, "sweep")
 _PIECE = 12  # columns to either side that tell an edge of a ridge from one of a stone
 _FIRM = np.float32(8)  # how much more a piece costs that is left for good than one that is tried
+_NEAR = 3  # where it is tried, rows count within a part of the height: one of so many
 _STRIDE = 64  # columns that are swept before it is looked at whether more of them change
 
 
@@ -150,22 +151,39 @@ class Tables:
                 one: to see how far another ridge leads.
         """
         self.sweep_for(plan, FORWARD, BACKWARD)
-        first, last = max(left.columns[0], 0), min(left.columns[1], len(self._cost) - 1)
-        costs: F32 = self.allowed[first : last + 1].copy()
-        mask: U8 = np.zeros(costs.shape, np.uint8)
+        width, height = self._cost.shape
+        first, last = max(left.columns[0], 0), min(left.columns[1], width - 1)
+        top, bottom = 0, height
+        if try_it:  # what is near to either ridge tells enough
+            beyond = height // _NEAR
+            top = max(min(left.rows[0], row) - beyond, 0)
+            bottom = min(max(left.rows[1], row) + beyond + 1, height)
+        part = slice(first, last + 1), slice(top, bottom)
+        count, at = last - first + 1, column - first + 1  # a column more on either side
+        costs: F32 = np.zeros((count + 2, bottom - top), np.float32)
+        costs[1:-1] = self.allowed[part]
+        mask: U8 = np.zeros((count, height), np.uint8)
         left.paint(mask, first)
-        price = self._price if try_it else self._price * _FIRM
-        costs[(mask == DEARER) & (costs == self._cost[first : last + 1])] += price
-        tops, bottoms = np.zeros(len(costs), np.int32), np.full(len(costs), costs.shape[1] - 1)
-        tops[column - first] = bottoms[column - first] = row
-        before = self._beside(plan, first - 1, self.forward)
-        after = self._beside(plan, last + 1, self.backward)
-        part = rows[first : last + 1]
-        cost = follow(
-            costs, tops, bottoms.astype(np.int32), 0, before, after, self._delta,
-            self.link_weight, part,
-        )  # fmt: skip
-        return bool(np.isfinite(cost))
+        dearer = (mask[:, top:bottom] == DEARER) & (costs[1:-1] == self._cost[part])
+        costs[1:-1][dearer] += self._price if try_it else self._price * _FIRM
+        table = np.zeros(costs.shape)
+        for end, beside in (
+            (0, self._beside(plan, first - 1, self.forward)),
+            (count + 1, self._beside(plan, last + 1, self.backward)),
+        ):
+            if len(beside):
+                table[end] = beside[top:bottom]
+        reach = np.full(count + 1, self._delta, np.int32)
+        found = np.full(count + 2, row - top, np.int32)
+        for end, inner, last_inner in ((0, at - 1, 1), (count + 1, at + 1, count)):
+            sweep(costs, reach, self.link_weight, table, end, inner)
+            near = slice(max(row - top - self._delta, 0), row - top + self._delta + 1)
+            if not np.isfinite(table[inner, near]).any():
+                return False
+            if 1 <= inner <= count:
+                trace(table, reach, self.link_weight, found, at, last_inner)
+        rows[first : last + 1] = found[1:-1] + top
+        return True
 
     def best_near(self, column: int, row: int, within: int) -> int:
         """Row of the best edge of a column near a row: where the cheapest short line crosses it.
