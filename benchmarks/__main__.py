@@ -24,6 +24,7 @@ from benchmarks import (
     clicks,
     confidence,
     filters,
+    gestures,
     labelling,
     mended,
     methods,
@@ -83,6 +84,7 @@ def _parts(
         parts["filters"] = lambda: filters.studies(data, sky)
         parts["methods"] = lambda: methods.compared(web, sky) + _sky_told(unseen)
         parts["visibility"] = lambda: visibility.denied([web, *others], Models(models))
+        parts["gestures"] = lambda: gestures.measured(data, models)
         parts["labelling"] = lambda: labelling.measured(web, data, sky)
     parts["samples"] = lambda: accuracy.rendered(SAMPLES)
     parts["speed"] = lambda: speed.measured(web, SAMPLES)

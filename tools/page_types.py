@@ -9,6 +9,7 @@ from pathlib import Path
 from pydantic import TypeAdapter
 
 from annotate.server import messages
+from annotate.server.explained import Explained
 from annotate.store.operations import Rough
 from annotate.work.learning import Learning
 
@@ -23,6 +24,7 @@ ANSWERED = (
     messages.Part,
     messages.Margins,
     messages.Alternatives,
+    Explained,
     messages.Sheet,
     Learning,
 )

@@ -4,26 +4,23 @@
 to solve it. Where two changes contradict each other, the later one holds: an anchor takes the place
 of the straight span in whose columns it lies, and of a piece of a drawn one; a span takes the place
 of anchors and cuts other spans; a guide takes the place of both. Anchors and spans are stronger
-than the brush and guides, which only steer what is solved: what they forbid is allowed again around
-an anchor, see `clearings`.
+than the brush, guides and sides, which only steer what is solved: what they forbid is allowed again
+around an anchor, see `steering.clearings`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from types import MappingProxyType
-from typing import Literal, TypeAlias, get_args
+from typing import Literal, get_args
 
-import cv2
 import numpy as np
 
-from annotate.engine.guide import Guide, guide_along
+from annotate.engine.guide import guide_along
+from annotate.engine.steering import Ground, Left, Steering, Stroke, side_of
 from skyline_viz.arrays import Bool, runs
 from skyline_viz.constraints import Anchor, StraightSpan
-
-_AROUND = 4  # pixels that are cleared around an anchor, beyond what it takes to get there
 
 SpanKind = Literal["straight", "drawn"]
 """How a span came about: a straight line between two pixels, or drawn by hand."""
@@ -64,41 +61,6 @@ class Span:
 
 
 @dataclass(frozen=True)
-class Stroke:
-    """A stroke of the brush: where the line must not go, or, of the eraser, may go again."""
-
-    points: tuple[tuple[int, int], ...]
-    """Column and row of its centre line."""
-
-    radius: int
-    """Half its width, in pixels."""
-
-    allow: bool = False
-    """Whether it is the eraser's."""
-
-    @cached_property
-    def columns(self) -> tuple[int, int]:
-        """First and last column that it may touch."""
-        across = [column for column, _ in self.points]
-        return min(across) - self.radius - 1, max(across) + self.radius + 1
-
-    @cached_property
-    def rows(self) -> tuple[int, int]:
-        """First and last row that it may touch."""
-        down = [row for _, row in self.points]
-        return min(down) - self.radius - 1, max(down) + self.radius + 1
-
-    def may_forbid(self, column: int, row: int) -> bool:
-        """Whether it may forbid a pixel: a quick look at what lies far off."""
-        (left, right), (top, bottom) = self.columns, self.rows
-        return not self.allow and left <= column <= right and top <= row <= bottom
-
-
-Steering: TypeAlias = Stroke | Guide
-"""What steers the line: it forbids pixels, and allows others again."""
-
-
-@dataclass(frozen=True)
 class Edits:
     """All that an annotator has asked for on one photo of `height` rows and `width` columns."""
 
@@ -111,13 +73,19 @@ class Edits:
     """Columns with fixed rows; no two of them share a column."""
 
     strokes: tuple[Steering, ...] = ()
-    """Strokes of the brush and of its eraser, and guides, in their order."""
+    """Strokes of the brush and of its eraser, guides, and sides, in their order."""
 
     hidden: tuple[tuple[int, int], ...] = ()
     """First and last column of each run in which the line cannot be seen, from left to right."""
 
-    def anchor(self, column: int, row: int) -> Edits:
-        """Let the line pass through a pixel."""
+    def anchor(self, column: int, row: int, left: Left | None = None) -> Edits:
+        """Let the line pass through a pixel.
+
+        Args:
+            column: Its column.
+            row: Its row.
+            left: The piece of the line that is left for the ridge of the pixel.
+        """
         self._require_inside(column, row)
         around = self._around
         spans: list[Span] = []
@@ -126,11 +94,12 @@ class Edits:
                 spans.append(span)
             elif span.kind == "drawn":
                 spans += span.without(column - around, column + around)
-        return self._with(anchors={**self.anchors, column: row}, spans=spans)
+        strokes = (*self.strokes, left) if left else self.strokes
+        return self._with(anchors={**self.anchors, column: row}, spans=spans, strokes=strokes)
 
-    def move(self, from_column: int, column: int, row: int) -> Edits:
-        """Move an anchor to another pixel."""
-        return self.remove(from_column).anchor(column, row)
+    def move(self, from_column: int, column: int, row: int, left: Left | None = None) -> Edits:
+        """Move an anchor to another pixel; what was left for it counts no more."""
+        return self.remove(from_column).anchor(column, row, left)
 
     def remove(self, column: int) -> Edits:
         """Take an anchor away."""
@@ -195,6 +164,20 @@ class Edits:
         kept = {at: row for at, row in self.anchors.items() if not guide.first <= at <= guide.last}
         return self._with(anchors=kept, spans=spans, strokes=(*self.strokes, guide))
 
+    def side(self, points: Sequence[tuple[int, int]], ground: Ground) -> Edits:
+        """Say that all above a stroke is sky, or that all below it is terrain.
+
+        Args:
+            points: Column and row of each vertex of the stroke; the line may still lie on it.
+            ground: Which of the two.
+        """
+        if not len(points):
+            raise EditError("a side has at least one point.")
+        side = side_of(points, ground, (self.height, self.width))
+        if side is None:
+            raise EditError("the stroke lies outside the photo.")
+        return self._with(strokes=(*self.strokes, side))
+
     @property
     def _around(self) -> int:
         """Columns that are free beside something new, so that a line leads there."""
@@ -217,13 +200,8 @@ class Edits:
         first, last = self._require_columns(first, last)
         kept = {one: row for one, row in self.anchors.items() if not first <= one <= last}
         spans = [part for span in self.spans for part in span.without(first, last)]
-        strokes: list[Steering] = []
-        for one in self.strokes:
-            if isinstance(one, Guide):
-                strokes += one.without(first, last)
-            elif not first <= one.points[0][0] <= last:
-                strokes.append(one)
-        return self._with(anchors=kept, spans=spans, strokes=strokes).hide(
+        steering = [part for one in self.strokes for part in one.without(first, last)]
+        return self._with(anchors=kept, spans=spans, strokes=steering).hide(
             first, last, hidden=False
         )
 
@@ -241,6 +219,19 @@ class Edits:
         if len(new) != 1 or len(old) > 1:
             return None
         return (*new.popitem(), next(iter(old), None))
+
+    def left_after(self, before: Edits) -> int | None:
+        """Column of the anchor for which a piece of the line was left, where that is all there is.
+
+        None when something else differs, too.
+        """
+        left = self.strokes[len(before.strokes) :]
+        if self.spans != before.spans or self.strokes != (*before.strokes, *left):
+            return None
+        new = self.anchors.items() - before.anchors.items()
+        if len(new) != 1 or before.anchors.items() - self.anchors.items():
+            return None
+        return new.pop()[0] if len(left) == 1 and isinstance(left[0], Left) else None
 
     def hidden_mask(self) -> Bool:
         """``(W,)`` True where the line cannot be seen."""
@@ -261,11 +252,13 @@ class Edits:
         strokes: Iterable[Steering] | None = None,
         hidden: tuple[tuple[int, int], ...] | None = None,
     ) -> Edits:
+        held = self.anchors if anchors is None else MappingProxyType(dict(anchors))
+        steering = self.strokes if strokes is None else tuple(strokes)
         return replace(
             self,
-            anchors=self.anchors if anchors is None else MappingProxyType(dict(anchors)),
+            anchors=held,
             spans=self.spans if spans is None else tuple(spans),
-            strokes=self.strokes if strokes is None else tuple(strokes),
+            strokes=tuple(one for one in steering if not isinstance(one, Left) or one.of in held),
             hidden=self.hidden if hidden is None else hidden,
         )
 
@@ -281,62 +274,3 @@ class Edits:
         if last < 0 or first >= self.width:
             raise EditError(f"columns {first} to {last} lie outside the photo.")
         return max(first, 0), min(last, self.width - 1)
-
-
-def clearings(edits: Edits) -> tuple[Stroke, ...]:
-    """Strokes of an eraser around anchors that lie where the line must not go.
-
-    They are round, and reach past what is forbidden above or below, so that a line leads to each of
-    them. What is cleared is not kept: it is forbidden again when the anchor is gone.
-    """
-    found = []
-    for column, row in edits.anchors.items():
-        if not any(one.may_forbid(column, row) for one in edits.strokes):
-            continue
-        near = [one for one in edits.strokes if one.columns[0] <= column <= one.columns[1]]
-        forbidden = paint(near, edits.height, edits.width, only=column)[0]
-        if forbidden[row]:
-            allowed = np.flatnonzero(~forbidden)
-            away = int(np.abs(allowed - row).min()) if len(allowed) else edits.height
-            found.append(Stroke(((column, row),), away + away // 2 + _AROUND, allow=True))
-    return tuple(found)
-
-
-def paint(
-    strokes: Iterable[Steering],
-    height: int,
-    width: int,
-    onto: Bool | None = None,
-    *,
-    delta: int = 1,
-    only: int | None = None,
-) -> Bool:
-    """Pixels that strokes and guides forbid, ``(W, H)``, column by column as path tables are.
-
-    Args:
-        strokes: The strokes and guides, in their order.
-        height: Rows of the photo.
-        width: Its columns.
-        onto: Pixels that earlier strokes forbid; it is painted on.
-        delta: Largest change of row between neighbouring columns, in pixels.
-        only: The only column to paint; the result is ``(1, H)`` then.
-    """
-    left, count = (0, width) if only is None else (only, 1)
-    painted: Bool = np.zeros((count, height), np.bool_) if onto is None else onto
-    mask = painted.view(np.uint8)
-    for stroke in strokes:
-        if isinstance(stroke, Guide):
-            tops, bottoms = stroke.bounds(delta)
-            start, stop = max(stroke.first, left), min(stroke.last + 1, left + count)
-            painted[max(start - left, 0) : max(stop - left, 0)] = True
-            for column in range(start, stop):
-                at = column - stroke.first
-                painted[column - left, tops[at] : bottoms[at] + 1] = False
-            continue
-        colour = 0 if stroke.allow else 1
-        # x runs down a column here
-        points = [(row, column - left) for column, row in stroke.points]
-        for start_at, end_at in zip(points, [*points[1:], points[-1]], strict=True):
-            cv2.line(mask, start_at, end_at, colour, 2 * stroke.radius + 1)
-            cv2.circle(mask, end_at, stroke.radius, colour, -1)
-    return painted

@@ -15,7 +15,7 @@ import cv2
 import numba
 import numpy as np
 
-from skyline_viz.arrays import F64, Int
+from skyline_viz.arrays import F64, U8, Int
 
 _FAST = 40.0  # radii a second: a hand that moves so fast is led by a disc of twice the radius
 _BESIDE = 4.0  # pixels that a guide is wide to either side where it chooses a line
@@ -58,6 +58,21 @@ class Guide:
             (self.first + start, self.tops[start:], self.bottoms[start:]),
         ]
         return [Guide(*part) for part in parts if part[1]]
+
+    def paint(self, mask: U8, left: int, delta: int) -> None:
+        """Mark all but the corridor in some columns ``(n, H)``, and unmark the corridor.
+
+        Args:
+            mask: 1 for what is forbidden there, column by column.
+            left: The first of the columns.
+            delta: Largest change of row between neighbouring columns, in pixels.
+        """
+        tops, bottoms = self.bounds(delta)
+        start, stop = max(self.first, left), min(self.last + 1, left + len(mask))
+        mask[max(start - left, 0) : max(stop - left, 0)] = 1
+        for column in range(start, stop):
+            at = column - self.first
+            mask[column - left, tops[at] : bottoms[at] + 1] = 0
 
     def bounds(self, delta: int) -> tuple[Int, Int]:
         """First and last row ``(n,)`` of each column, wider where the stroke is too steep.
@@ -115,12 +130,24 @@ def along(rows: Int) -> tuple[list[tuple[int, int]], int]:
         >>> along(np.array([5, 6, 7, 8, 8, 8]))
         ([(0, 5), (5, 8)], 4)
     """
-    line = np.column_stack([np.arange(len(rows)), rows]).astype(np.int32)
     for within in (_BESIDE / 2, _BESIDE, 2 * _BESIDE, 4 * _BESIDE):
-        points = cv2.approxPolyDP(line.reshape(-1, 1, 2), within, closed=False).reshape(-1, 2)
+        points = thinned(0, rows, within)
         if len(points) <= _MOST:
             break
-    return [(int(column), int(row)) for column, row in points], int(2 * within)
+    return list(points), int(2 * within)
+
+
+def thinned(first: int, rows: Int, within: float) -> tuple[tuple[int, int], ...]:
+    """Points of a line that lies no more than some pixels beside them (Douglas and Peucker).
+
+    Args:
+        first: Its first column.
+        rows: Row in each of its columns.
+        within: How many pixels.
+    """
+    line = np.column_stack([np.arange(first, first + len(rows)), rows]).astype(np.int32)
+    points = cv2.approxPolyDP(line.reshape(-1, 1, 2), within, closed=False).reshape(-1, 2)
+    return tuple((int(column), int(row)) for column, row in points)
 
 
 def radii_of(vertices: F64, radius: float, times: Sequence[int]) -> F64:

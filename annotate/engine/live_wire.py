@@ -18,21 +18,22 @@ labelled, too.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
 
+from annotate.engine.clicks import piece_left, price_of
 from annotate.engine.edits import ORIGINS, Edits
 from annotate.engine.guide import Guide
 from annotate.engine.plan import Plan, Run, make_plan
+from annotate.engine.steering import Ground, Left
 from annotate.engine.tables import BACKWARD, FORWARD, Tables
 from skyline_viz.arrays import F32, F64, U8, Int, check_photo
 from skyline_viz.certainty.other_lines import OtherLine, other_lines
-from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
+from skyline_viz.constraints import Anchor, PathError, StraightSpan
 from skyline_viz.detection import Detection
 from skyline_viz.method import Method
-from skyline_viz.path import cheapest_end, trace
+from skyline_viz.path import trace
 from skyline_viz.skyline import Skyline
 
 
@@ -84,7 +85,8 @@ class LiveWire:
             del detection  # its other planes, before there are tables
         columns: F32 = np.ascontiguousarray(cost.T)
         del cost
-        self._tables = Tables(columns, self._delta, link_weight)
+        paid = price_of(columns, self.proposal, link_weight) if self.proposal else 0.0
+        self._tables = Tables(columns, self._delta, link_weight, paid)
         self._edits = Edits(self.height, self.width)
         self._plan = self._planned(self._edits)
         self._rows: Int | None = None
@@ -108,12 +110,14 @@ class LiveWire:
             rows = self._rows
         elif self.blind and plan.free.any():
             rows = None
+        elif (new := edits.left_after(self._edits)) is not None:
+            rows = self._past(edits, plan, new)
         elif (moved := edits.one_anchor_after(self._edits)) is not None:
             rows = self._through(*moved)
         elif edits.strokes[:-1] == self._edits.strokes and edits.strokes:
             rows = self._guided(edits, plan)
         else:
-            rows = self._solved(plan)
+            rows = self._tables.solved(plan)
         self._edits, self._plan, self._rows = edits, plan, rows
 
     @property
@@ -156,14 +160,46 @@ class LiveWire:
         """
         return 0 if self.blind else self._tables.measure(self._plan, most)
 
-    def anchor(self, column: int, row: int) -> Skyline:
-        """Let the line pass through a pixel, and return it.
+    def anchor(self, column: int, row: int, within: int = 0) -> Skyline:
+        """Let the line pass through a pixel, and on along its ridge, and return it.
+
+        Args:
+            column: Its column.
+            row: Its row.
+            within: It is the best edge no more than so many rows away; 0 for exactly here.
 
         Raises:
             EditError: Outside the photo.
             PathError: Nothing leads there past what is forbidden.
         """
-        return self._change(lambda edits: edits.anchor(int(column), int(row)))
+        column, row = int(column), int(row)
+        row, left = self.clicked(column, row, within)
+        return self._change(lambda edits: edits.anchor(column, row, left))
+
+    def clicked(
+        self, column: int, row: int, within: int = 0, lifted: int | None = None
+    ) -> tuple[int, Left | None]:
+        """Row of the anchor that a click sets, and the piece of the line that it leaves behind.
+
+        Args:
+            column: Column of the click.
+            row: Its row.
+            within: The anchor is the best edge no more than so many rows away; 0 for exactly here.
+            lifted: Column of an anchor that is being dragged, and counts no more.
+
+        Raises:
+            EditError: There is no anchor in column `lifted`.
+        """
+        plan, rows = self._plan, self._rows
+        if lifted is not None:
+            plan = self._planned(self._edits.remove(lifted))
+        if self.blind or not (0 <= column < self.width and 0 <= row < self.height):
+            return row, None
+        if within:
+            row = self._tables.best_near(column, row, within)
+        if lifted is not None:
+            rows = self._tables.solved(plan)
+        return row, None if rows is None else piece_left(self._tables, plan, rows, column, row)
 
     def straight(self, column: int, row: int, to_column: int, to_row: int) -> Skyline:
         """Let the line be straight between two pixels, see `Edits.straight`."""
@@ -199,23 +235,36 @@ class LiveWire:
         """
         return self._change(lambda edits: edits.guide(points, radius, times))
 
+    def side(self, points: Sequence[tuple[int, int]], ground: Ground) -> Skyline:
+        """Say that all above a stroke is sky, or all below it terrain, see `Edits.side`."""
+        return self._change(lambda edits: edits.side(points, ground))
+
     def hide(self, first: int, last: int, *, hidden: bool = True) -> Skyline:
         """Say where the line cannot be seen, see `Edits.hide`."""
         return self._change(lambda edits: edits.hide(first, last, hidden=hidden))
 
-    def preview(self, column: int, row: int, lifted: int | None = None) -> Skyline:
+    def preview(self, column: int, row: int, lifted: int | None = None, within: int = 0) -> Skyline:
         """The line as it would be with one more anchor; nothing changes.
 
         Args:
             column: Column of the anchor.
             row: Its row.
             lifted: Column of an anchor that is being dragged, and counts no more.
+            within: As for `anchor`.
 
         Raises:
             EditError: Outside the photo, or there is no anchor in column `lifted`.
             PathError: Nothing leads there past what is forbidden.
         """
-        return self._line(self._through(int(column), int(row), lifted))
+        column, row = int(column), int(row)
+        row, left = self.clicked(column, row, within, lifted)
+        if left is not None and lifted is not None:
+            moved = self._edits.move(lifted, column, row, left)
+            return self._line(self._tables.solved(self._planned(moved)))
+        if left is not None:
+            edits = self._edits.anchor(column, row, left)
+            return self._line(self._past(edits, self._planned(edits), column))
+        return self._line(self._through(column, row, lifted))
 
     def preview_guide(
         self,
@@ -231,14 +280,7 @@ class LiveWire:
         """Whole lines along other ridges under what has been asked for, the cheapest first."""
         if self._rows is None or self.blind:
             return []
-        cost, plan = self._tables.costs_for(self._plan), self._plan
-        fixed = [Anchor(at, int(plan.fixed[at])) for at in np.flatnonzero(~plan.free).tolist()]
-        steep = [
-            StraightSpan(one, other)
-            for one, other in pairwise(fixed)
-            if other.column == one.column + 1 and abs(other.row - one.row) > self._delta
-        ]
-        constraints = Constraints(tuple(fixed), tuple(steep)) if fixed else None
+        cost, constraints = self._tables.costs_for(self._plan), self._plan.constraints(self._delta)
         weight = self._tables.link_weight
         return other_lines(cost, self._delta, weight, self._rows, constraints, most)
 
@@ -263,22 +305,45 @@ class LiveWire:
             or not isinstance(guide, Guide)
             or plan.strokes != (*before.strokes, guide)
         ):
-            return self._solved(plan)
+            return self._tables.solved(plan)
         beside = np.ones(self.width, np.bool_)
         beside[guide.first : guide.last + 1] = False
         if (
             not np.array_equal(plan.fixed[beside], before.fixed[beside])
             or not plan.free[~beside].all()
         ):
-            return self._solved(plan)
+            return self._tables.solved(plan)
         rows = self._rows.copy()
         if not self._tables.follow(guide, before, rows):
             raise PathError("no line leads from the guide to what is fixed beside it.")
-        for column, table, step in (
-            (guide.first, self._tables.forward, -1),
-            (guide.last, self._tables.backward, 1),
+        return self._joined(rows, guide.first, guide.last, before)
+
+    def _past(self, edits: Edits, plan: Plan, column: int) -> Int:
+        """Rows of the line with one more anchor, for which a piece of the line is left behind."""
+        left, before = edits.strokes[-1], self._plan
+        run = before.run_at(column)
+        if (
+            self._rows is None
+            or not isinstance(left, Left)
+            or plan.strokes != (*before.strokes, left)
+            or run is None
+            or not run.left < left.columns[0] <= left.columns[1] < run.right
+            or np.count_nonzero(plan.fixed != before.fixed) != 1
         ):
-            run = before.run_at(column + step)
+            return self._tables.solved(plan)
+        rows = self._rows.copy()
+        if not self._tables.follow_past(left, column, edits.anchors[column], before, rows):
+            return self._tables.solved(plan)  # a cliff
+        return self._joined(rows, *left.columns, before)
+
+    def _joined(self, rows: Int, first: int, last: int, plan: Plan) -> Int:
+        """Rows of the line when those of some columns are given, and lead on to both sides."""
+        first, last = max(first, 0), min(last, self.width - 1)
+        for column, table, step in (
+            (first, self._tables.forward, -1),
+            (last, self._tables.backward, 1),
+        ):
+            run = plan.run_at(column + step)
             if run is not None:
                 end = run.left + 1 if step < 0 else run.right - 1
                 trace(table, self._tables.reach, self._tables.link_weight, rows, column, end)
@@ -298,14 +363,14 @@ class LiveWire:
         anchored = edits.anchor(column, row)  # drops the span in which it lies
         plan = self._planned(anchored)
         if self.blind or plan.strokes != edits.strokes:  # something is cleared around an anchor
-            return self._solved(plan)
+            return self._tables.solved(plan)
         free = self._planned(anchored.remove(column))
         base = self._rows if free == self._plan else None
-        rows = self._solved(free).copy() if base is None else base.copy()
+        rows = self._tables.solved(free).copy() if base is None else base.copy()
         self.refresh(free)
         run = free.run_at(column)
         if run is None:  # a cliff between two anchors
-            return self._solved(plan)
+            return self._tables.solved(plan)
         rows[column] = row
         self._walk(rows, column, run, self._tables.forward, run.left)
         self._walk(rows, column, run, self._tables.backward, run.right)
@@ -326,30 +391,3 @@ class LiveWire:
         if not np.isfinite(table[column + step, near]).any():
             raise PathError(f"nothing leads to column {column}, row {row} past what is forbidden.")
         trace(table, self._tables.reach, self._tables.link_weight, rows, column, end - step)
-
-    def _solved(self, plan: Plan) -> Int:
-        """Rows of the cheapest line of a plan."""
-        rows = plan.fixed.copy()
-        if plan.runs:  # none of a photo that is labelled blind
-            self._tables.sweep_for(plan, FORWARD)
-        forward, reach, weight = (
-            self._tables.forward,
-            self._tables.reach,
-            self._tables.link_weight,
-        )
-        for run in plan.runs:
-            if run.right_row is None:
-                rows[-1] = cheapest_end(forward[-1])
-                if not np.isfinite(forward[-1, rows[-1]]):
-                    raise PathError("no line leads to the right edge past what is forbidden.")
-                trace(forward, reach, weight, rows, run.right - 1, run.left + 1)
-            else:
-                near = max(run.right_row - self._delta, 0)
-                before = forward[run.right - 1, near : run.right_row + self._delta + 1]
-                if not np.isfinite(before).any():
-                    raise PathError(
-                        f"no line leads to column {run.right}, row {run.right_row} "
-                        "past what is forbidden."
-                    )
-                trace(forward, reach, weight, rows, run.right, run.left + 1)
-        return rows

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
-from annotate.engine.edits import Edits, Steering, clearings
+from annotate.engine.edits import Edits
+from annotate.engine.steering import Steering, clearings
 from skyline_viz.arrays import Bool, Int, read_only, runs
-from skyline_viz.constraints import Anchor, StraightSpan
+from skyline_viz.constraints import Anchor, Constraints, StraightSpan
 
 
 @dataclass(frozen=True)
@@ -91,6 +93,20 @@ class Plan:
         """The run that holds a column; None where it is fixed."""
         return next((run for run in self.runs if run.left < column < run.right), None)
 
+    def constraints(self, delta: int) -> Constraints | None:
+        """What is fixed, for a search of whole lines; None where nothing is.
+
+        Args:
+            delta: Largest change of row between neighbouring columns that are not fixed.
+        """
+        fixed = [Anchor(at, int(self.fixed[at])) for at in np.flatnonzero(~self.free).tolist()]
+        steep = [
+            StraightSpan(one, other)
+            for one, other in pairwise(fixed)
+            if other.column == one.column + 1 and abs(other.row - one.row) > delta
+        ]
+        return Constraints(tuple(fixed), tuple(steep)) if fixed else None
+
     def stale(self, tabled: Plan | None, changed: tuple[int, int] | None) -> list[Stale]:
         """Columns that have to be swept again, run by run.
 
@@ -163,4 +179,5 @@ def make_plan(edits: Edits, delta: int | None) -> Plan:
             straight[:first] = straight[last + 1 :] = True
     read_only(fixed)
     read_only(straight)
-    return Plan(fixed, straight, (*edits.strokes, *clearings(edits)))
+    cleared = clearings(edits.anchors, edits.strokes, (edits.height, edits.width))
+    return Plan(fixed, straight, (*edits.strokes, *cleared))

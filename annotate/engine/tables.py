@@ -14,33 +14,40 @@ import numba
 import numpy as np
 
 from annotate.engine.corridor import follow
-from annotate.engine.edits import Steering, paint
 from annotate.engine.guide import Guide
 from annotate.engine.plan import Plan, Stale, painted_between
-from skyline_viz.arrays import F32, F64, Bool, Int, runs
-from skyline_viz.path import APART, column_margin, min_marginals, sweep
+from annotate.engine.steering import DEARER, FORBIDDEN, FREE, Left, Steering, paint
+from skyline_viz.arrays import F32, F64, U8, Int, runs
+from skyline_viz.constraints import PathError
+from skyline_viz.path import APART, cheapest_end, column_margin, min_marginals, sweep, trace
 
 FORWARD, BACKWARD = True, False
 """The table of costs from the left, and the one from the right."""
 
 _POOL = ThreadPoolExecutor(2, "sweep")
+_PIECE = 12  # columns to either side that tell an edge of a ridge from one of a stone
+_FIRM = np.float32(8)  # how much more a piece costs that is left for good than one that is tried
+_NEAR = 3  # where it is tried, rows count within a part of the height: one of so many
 _STRIDE = 64  # columns that are swept before it is looked at whether more of them change
 
 
 class Tables:
     """Costs of a photo's pixels, and tables of the cheapest lines to them from either side."""
 
-    def __init__(self, cost: F32, delta: int, link_weight: float) -> None:
+    def __init__(self, cost: F32, delta: int, link_weight: float, price: float = 0.0) -> None:
         """Begin with nothing swept.
 
         Args:
             cost: ``(W, H)`` nodal costs, column by column.
             delta: Largest change of row between neighbouring columns, in pixels.
             link_weight: Link cost of one pixel of row change.
+            price: What a pixel costs more along a line that a click has left.
         """
         self._cost = cost
         self.allowed = cost
-        """``(W, H)`` the costs, infinite where the brush forbids; a copy where it does."""
+        """``(W, H)`` the costs, infinite where the brush forbids, and more along lines that a click
+        has left; a copy where there is any."""
+        self._price = np.float32(price)
         self.link_weight = float(np.float32(link_weight))
         """Link cost of one pixel of row change, a float32 as nodal costs are: sums of some thousand
         are exact in float64, so that tables do not depend on how they came about."""
@@ -76,6 +83,33 @@ class Tables:
         for job in jobs:
             job.result()
 
+    def solved(self, plan: Plan) -> Int:
+        """Rows ``(W,)`` of the cheapest line of a plan.
+
+        Raises:
+            PathError: No line is possible past what is forbidden.
+        """
+        rows = plan.fixed.copy()
+        if plan.runs:  # none of a photo that is labelled blind
+            self.sweep_for(plan, FORWARD)
+        forward, reach, weight = self.forward, self.reach, self.link_weight
+        for run in plan.runs:
+            if run.right_row is None:
+                rows[-1] = cheapest_end(forward[-1])
+                if not np.isfinite(forward[-1, rows[-1]]):
+                    raise PathError("no line leads to the right edge past what is forbidden.")
+                trace(forward, reach, weight, rows, run.right - 1, run.left + 1)
+            else:
+                near = max(run.right_row - self._delta, 0)
+                before = forward[run.right - 1, near : run.right_row + self._delta + 1]
+                if not np.isfinite(before).any():
+                    raise PathError(
+                        f"no line leads to column {run.right}, row {run.right_row} "
+                        "past what is forbidden."
+                    )
+                trace(forward, reach, weight, rows, run.right, run.left + 1)
+        return rows
+
     def costs_for(self, plan: Plan) -> F32:
         """``(H, W)`` costs under a plan: infinite where it forbids, as they are where it fixes."""
         self._paint(plan.strokes)
@@ -101,6 +135,76 @@ class Tables:
             rows,
         )  # fmt: skip
         return bool(np.isfinite(cost))
+
+    def follow_past(
+        self, left: Left, column: int, row: int, plan: Plan, rows: Int, *, try_it: bool = False
+    ) -> bool:
+        """Fill in the rows of the cheapest line through a pixel that leaves a line behind.
+
+        Args:
+            left: The piece of the line that is left; the pixel lies in its columns.
+            column: Column of the pixel.
+            row: Its row.
+            plan: What holds but for both; tables are brought up to date with it.
+            rows: ``(W,)`` is filled in the columns of the piece, where there is such a line.
+            try_it: Whether the piece costs only so much more that a good line is not left for a bad
+                one: to see how far another ridge leads.
+        """
+        self.sweep_for(plan, FORWARD, BACKWARD)
+        width, height = self._cost.shape
+        first, last = max(left.columns[0], 0), min(left.columns[1], width - 1)
+        top, bottom = 0, height
+        if try_it:  # what is near to either ridge tells enough
+            beyond = height // _NEAR
+            top = max(min(left.rows[0], row) - beyond, 0)
+            bottom = min(max(left.rows[1], row) + beyond + 1, height)
+        part = slice(first, last + 1), slice(top, bottom)
+        count, at = last - first + 1, column - first + 1  # a column more on either side
+        costs: F32 = np.zeros((count + 2, bottom - top), np.float32)
+        costs[1:-1] = self.allowed[part]
+        mask: U8 = np.zeros((count, height), np.uint8)
+        left.paint(mask, first)
+        dearer = (mask[:, top:bottom] == DEARER) & (costs[1:-1] == self._cost[part])
+        costs[1:-1][dearer] += self._price if try_it else self._price * _FIRM
+        table = np.zeros(costs.shape)
+        for end, beside in (
+            (0, self._beside(plan, first - 1, self.forward)),
+            (count + 1, self._beside(plan, last + 1, self.backward)),
+        ):
+            if len(beside):
+                table[end] = beside[top:bottom]
+        reach = np.full(count + 1, self._delta, np.int32)
+        found = np.full(count + 2, row - top, np.int32)
+        for end, inner, last_inner in ((0, at - 1, 1), (count + 1, at + 1, count)):
+            sweep(costs, reach, self.link_weight, table, end, inner)
+            near = slice(max(row - top - self._delta, 0), row - top + self._delta + 1)
+            if not np.isfinite(table[inner, near]).any():
+                return False
+            if 1 <= inner <= count:
+                trace(table, reach, self.link_weight, found, at, last_inner)
+        rows[first : last + 1] = found[1:-1] + top
+        return True
+
+    def best_near(self, column: int, row: int, within: int) -> int:
+        """Row of the best edge of a column near a row: where the cheapest short line crosses it.
+
+        A pixel alone may be an edge of a stone; a piece of a ridge goes on to both sides.
+
+        Args:
+            column: The column.
+            row: The row.
+            within: How many rows away at the most.
+        """
+        width, height = self._cost.shape
+        first, last = max(column - _PIECE, 0), min(column + _PIECE, width - 1)
+        away = within + np.abs(np.arange(first, last + 1, dtype=np.int32) - column)
+        tops, bottoms = np.maximum(row - away, 0), np.minimum(row + away, height - 1)
+        rows = np.zeros(width, np.int32)
+        nothing = np.empty(0)
+        follow(
+            self._cost, tops, bottoms, first, nothing, nothing, self._delta, self.link_weight, rows
+        )
+        return int(rows[column])
 
     def _beside(self, plan: Plan, column: int, table: F64) -> F64:
         """``(H,)`` costs of a column beside a guide; empty outside the photo."""
@@ -148,16 +252,20 @@ class Tables:
         if self.allowed is self._cost:
             self.allowed = self._cost.copy()
         part = slice(first, last + 1)
-        mask: Bool = np.zeros((width, height), np.bool_)
+        mask: U8 = np.zeros((width, height), np.uint8)
         if strokes[: len(before)] == before:  # some were added: they are painted on what is there
-            mask[part] = self.allowed[part] != self._cost[part]
+            there = self.allowed[part]
+            mask[part] = np.where(there == self._cost[part], FREE, DEARER)
+            mask[part][np.isinf(there)] = FORBIDDEN
             asked = strokes[len(before) :]
         else:
             asked = tuple(
                 one for one in strokes if one.columns[0] <= last and one.columns[1] >= first
             )
+        marked = paint(asked, height, width, mask, delta=self._delta)[part]
         self.allowed[part] = self._cost[part]
-        self.allowed[part][paint(asked, height, width, mask, delta=self._delta)[part]] = np.inf
+        self.allowed[part][marked == DEARER] += self._price * _FIRM
+        self.allowed[part][marked == FORBIDDEN] = np.inf
         self._painted = strokes
 
     def _sweep(self, part: Stale, tabled: Plan | None, changed: tuple[int, int] | None) -> None:

@@ -8,18 +8,18 @@ from typing import Annotated
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
-from annotate.engine.edits import ORIGINS, Stroke
+from annotate.engine.edits import ORIGINS
 from annotate.engine.guide import Guide, along
+from annotate.engine.steering import Ground, Side, Stroke
 from annotate.formats import TITLES
 from annotate.store.cards import Card
-from annotate.store.labels import STATUSES, TAGS, Status
+from annotate.store.labels import HIDDEN_BY, STATUSES, TAGS, Status
 from annotate.store.operations import Operation, Place, spoken
 from annotate.work.images import BAND, TILE
 from annotate.work.session import Session
 from annotate.work.workbench import Progress
 from skyline_viz.arrays import F64, Int
 from skyline_viz.certainty.other_lines import OtherLine
-from skyline_viz.diagnosis.explanation import Explanation, Filtered
 from skyline_viz.overlay import ALTERNATIVE, ANCHOR, HALO, PATH, css
 from skyline_viz.system.memory import photo_limit
 
@@ -56,6 +56,8 @@ class Pixel(_Request):
     column: Place
     row: Place
     lifted: Place | None = None
+    within: Annotated[int, Field(ge=0, le=1000)] = 0
+    """The anchor is the best edge no more than so many rows away; 0 for exactly here."""
 
 
 class Nothing(_Request):
@@ -90,8 +92,11 @@ class Legend(BaseModel):
     tags: tuple[str, ...]
     """Tags that are offered."""
 
-    stages: tuple[str, ...]
-    """Stages, and terms of the cost, that can be laid over a photo."""
+    hidden_by: tuple[str, ...]
+    """Tags that say why a line cannot be seen."""
+
+    stages: dict[str, str]
+    """Stages, and terms of the cost, that can be laid over a photo, and how each reads."""
 
     formats: tuple[ShownFormat, ...]
     colours: Colours
@@ -102,11 +107,12 @@ class Legend(BaseModel):
     """Rows above and below the line in a strip."""
 
     @classmethod
-    def made(cls, stages: tuple[str, ...]) -> Legend:
+    def made(cls, stages: dict[str, str]) -> Legend:
         """Put together what is defined elsewhere, and what can be laid over a photo."""
         return cls(
             statuses=STATUSES,
             tags=TAGS,
+            hidden_by=HIDDEN_BY,
             stages=stages,
             formats=tuple(ShownFormat(name=name, says=says) for name, says in TITLES.items()),
             colours=Colours(
@@ -188,6 +194,14 @@ class ShownSpan(BaseModel):
     last: int
 
 
+class ShownSide(BaseModel):
+    """Columns in which all above a stroke is sky, or all below it is terrain."""
+
+    first: int
+    rows: list[int]
+    ground: Ground
+
+
 class Document(BaseModel):
     """A photo with everything that was done to it."""
 
@@ -206,6 +220,9 @@ class Document(BaseModel):
     forbidden: tuple[Stroke, ...]
     guides: list[tuple[int, int]]
     """First and last column of each guide."""
+
+    sides: list[ShownSide]
+    """Columns in which the line keeps to one side of a stroke."""
 
     can_undo: bool
     can_redo: bool
@@ -243,6 +260,11 @@ class Document(BaseModel):
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
             forbidden=tuple(one for one in edits.strokes if isinstance(one, Stroke)),
             guides=[one.columns for one in edits.strokes if isinstance(one, Guide)],
+            sides=[
+                ShownSide(first=one.first, rows=list(one.rows), ground=one.ground)
+                for one in edits.strokes
+                if isinstance(one, Side)
+            ],
             can_undo=bool(state.steps),
             can_redo=bool(state.taken),
             undo_what=spoken(state.steps[-1].change) if state.steps else None,
@@ -322,55 +344,6 @@ class Alternatives(BaseModel):
     """Lines along other ridges, the cheapest first."""
 
     alternatives: list[ShownAlternative]
-
-
-class ShownFilter(BaseModel):
-    """How a pixel's score comes about, see `explanation.Filtered`."""
-
-    strength: float
-    coherence: float
-    orientation: float
-    axes: tuple[float, float]
-    bin: int
-    why: tuple[str, str, str]
-    samples: int
-    starved: bool
-    patch: list[list[int]]
-    taps: list[list[float]]
-    product: list[list[float]]
-    score: float
-
-    @classmethod
-    def of(cls, filtered: Filtered) -> ShownFilter:
-        """Show what a filter does at a pixel."""
-        arrays = {name: getattr(filtered, name).tolist() for name in ("patch", "taps", "product")}
-        return cls(**{**vars(filtered), **arrays, "axes": filtered.axes})
-
-
-class Explained(BaseModel):
-    """One pixel, all the way down, see `explanation.Explanation`."""
-
-    row: int
-    column: int
-    colours: list[list[tuple[int, int, int]]]
-    edge: bool
-    why_edge: str
-    gradient: float | None
-    score: float | None
-    filtered: ShownFilter | None
-    terms: dict[str, float]
-    cost: float | None
-
-    @classmethod
-    def of(cls, told: Explanation) -> Explained:
-        """Show an explanation."""
-        shown = {
-            "colours": told.colours.tolist(),
-            "filtered": ShownFilter.of(told.filtered) if told.filtered else None,
-            "terms": dict(told.terms),
-            "cost": finite(told.cost),
-        }
-        return cls(**{**vars(told), **shown})
 
 
 class Sheet(BaseModel):

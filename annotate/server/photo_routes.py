@@ -7,11 +7,11 @@ from collections.abc import Callable
 from fastapi import APIRouter, HTTPException, Response
 
 from annotate.server.dependencies import Bench, Column, PhotoId, Row
+from annotate.server.explained import Explained
 from annotate.server.messages import (
     Alternatives,
     Apply,
     Document,
-    Explained,
     Margins,
     Part,
     Pixel,
@@ -52,7 +52,7 @@ def preview(bench: Bench, photo: PhotoId, pixel: Pixel) -> Part:
     session = bench.session(photo)
     with session.lock:
         wire = session.wire
-        rows = wire.preview(pixel.column, pixel.row, pixel.lifted).rows.astype(int)
+        rows = wire.preview(pixel.column, pixel.row, pixel.lifted, pixel.within).rows.astype(int)
         return Part.of(rows, None if wire.empty else wire.skyline.rows.astype(int))
 
 

@@ -47,6 +47,12 @@ def stage(
     return _shown(request, pictures.stage(photo, stage))
 
 
+@router.get("/overview")
+def overview(request: Request, pictures: ThePictures, photo: PhotoId) -> Response:
+    """A small picture with the line on it."""
+    return _shown(request, pictures.overview(photo))
+
+
 @router.get("/strip")
 def strip(
     request: Request,

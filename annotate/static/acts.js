@@ -1,14 +1,18 @@
 /** Everything that a key or a button does, by name. */
 
-import { stagesAddress } from "./api.js";
-import { box, button, input } from "./dom.js";
+import { box, button, input } from "./basics/dom.js";
+import { stagesAddress } from "./server/api.js";
 
-/** @import { Actions } from "./actions.js" */
-/** @import { Labelling } from "./labelling.js" */
-/** @import { lineActions } from "./line_actions.js" */
-/** @import { Overlay } from "./overlay.js" */
-/** @import { Sheet } from "./sheet.js" */
-/** @import { Toolbar } from "./toolbar.js" */
+/** @import { Actions } from "./around/actions.js" */
+/** @import { Labelling } from "./labelled/labelling.js" */
+/** @import { Selection } from "./labelled/selection.js" */
+/** @import { Stage } from "./drawn/stage.js" */
+/** @import { lineActions } from "./gestures/line_actions.js" */
+/** @import { Brush } from "./around/brush.js" */
+/** @import { ExplainedPanel } from "./around/explained.js" */
+/** @import { Overlay } from "./around/overlay.js" */
+/** @import { Sheet } from "./around/sheet.js" */
+/** @import { Toolbar } from "./around/toolbar.js" */
 /** @import { Status } from "./types.js" */
 
 /**
@@ -19,6 +23,10 @@ import { box, button, input } from "./dom.js";
  * @property {Toolbar} toolbar
  * @property {Overlay} overlay
  * @property {Sheet} sheet
+ * @property {Selection} selection
+ * @property {Stage} stage
+ * @property {ExplainedPanel} explained
+ * @property {Brush} brush
  * @property {() => void} help - Shows all keys.
  */
 
@@ -29,10 +37,19 @@ import { box, button, input } from "./dom.js";
  *
  * @param {Parts} parts
  */
-export function makeActs({ labelling, line, actions, toolbar, overlay, sheet, help }) {
+export function makeActs({ labelling, line, actions, toolbar, overlay, sheet, selection, stage, explained, brush, help }) {
   return {
     ...line,
     help,
+    escape() {
+      line.escape();
+      explained.hide();
+    },
+    explainHere: () => labelling.document && explained.show(selection.place(labelling.document)),
+    /** @param {boolean} wider */
+    brush: (wider) => labelling.say(`The brush is ${2 * brush.resize(wider)} screen pixels wide.`),
+    /** @param {boolean} on */
+    magnify: (on) => stage.lines.magnify(on),
     /** @param {Status} status */
     finish: (status) => actions.finish(status),
     /** @param {Status} status */
@@ -58,8 +75,13 @@ export function makeActs({ labelling, line, actions, toolbar, overlay, sheet, he
   };
 }
 
+/** Whether the list would lie over the photo. */
+export function narrow() {
+  return matchMedia("(max-width: 720px)").matches;
+}
+
 /** @param {boolean} shown */
-function showList(shown) {
+export function showList(shown) {
   box("side").hidden = !shown;
   button("list-toggle").setAttribute("aria-expanded", String(shown));
 }

@@ -2,7 +2,7 @@
 
 /** @import { Acts } from "./acts.js" */
 
-/** @typedef {{keys: string[], shown: string, says: string, run: (event: KeyboardEvent) => unknown}} Entry */
+/** @typedef {{keys: string[], shown: string, says: string, run: (event: KeyboardEvent) => unknown, group: string}} Entry */
 
 /**
  * What each key does.
@@ -11,43 +11,73 @@
  * @returns {Entry[]}
  */
 export function keyTable(act) {
+  let group = "";
   /** @type {(shown: string, says: string, run: Entry["run"], ...keys: string[]) => Entry} */
-  const one = (shown, says, run, ...keys) => ({ keys, shown, says, run });
+  const one = (shown, says, run, ...keys) => ({ keys, shown, says, run, group });
+  /** @type {(name: string) => Entry[]} */
+  const part = (name) => {
+    group = name;
+    return [];
+  };
   return [
+    ...part("The photo is finished"),
     one("Space", "Accept, and show the next photo", () => act.finish("accepted"), " "),
     one("R", "Needs review, next photo", () => act.finish("needs review"), "r"),
     one("Q", "Reject, next photo", () => act.finish("rejected"), "q"),
     one("C", "Set the photo back: it is to do again", () => act.setStatus("to do"), "c"),
-    one("N, Shift+N", "Next, previous uncertain column", (event) => act.uncertain(event.shiftKey ? -1 : 1), "n", "N"),
+    one("T", "Tags; there a digit ticks one", () => act.tags(), "t"),
+    one("U, Ctrl+Z", "Undo", () => act.undo(), "u", "Ctrl+z"),
+    one("Y, Ctrl+Shift+Z", "Redo", () => act.redo(), "y", "Ctrl+y", "Ctrl+Z"),
+    ...part("Where to look"),
+    one("N, Shift+N", "Next, previous uncertain span", (event) => act.uncertain(event.shiftKey ? -1 : 1), "n", "N"),
+    one("[ ]", "Previous, next photo", (event) => act.step(event.key === "[" || event.key === "PageUp" ? -1 : 1), "[", "]", "PageUp", "PageDown"),
+    one("+ − 0", "Zoom in, out, whole photo", (event) => act.zoom(event.key), "+", "=", "-", "0"),
+    one("Alt+arrows", "Move the photo", (event) => act.pan(event.key), "Alt+ArrowLeft", "Alt+ArrowRight", "Alt+ArrowUp", "Alt+ArrowDown"),
+    one("Z", "Magnify what is under the mouse, while it is held", () => act.magnify(true), "z"),
+    one("O", "Next overlay: the stages of the detector", () => act.overlay(), "o"),
+    one("Shift+E", "Explain the pixel at the cursor", () => act.explainHere(), "E"),
+    one("G", "Stages in Rerun, with this line as truth", () => act.stages(), "g"),
+    one("W", "Sheet: photos and strips, many at once", () => act.sheet(), "w"),
+    one("P", "Show or hide the list of photos", () => act.list(), "p"),
+    one("/", "Search photos", () => act.search(), "/"),
+    one("?", "These keys", () => act.help(), "?"),
+    ...part("The line, with a cursor"),
     one("← →", "Move the column cursor; with Shift 10, with Ctrl 100 columns", (event) =>
       act.moveColumn((event.key === "ArrowLeft" ? -1 : 1) * pace(event)), "ArrowLeft", "ArrowRight"),
     one("↑ ↓", "Move its row; with Shift 10, with Ctrl 100 rows", (event) =>
       act.moveRow((event.key === "ArrowUp" ? -1 : 1) * pace(event)), "ArrowUp", "ArrowDown"),
-    one("Enter, Shift+Enter", "Set an anchor at the cursor; and leave the old line around it", (event) => act.anchorHere(event.shiftKey), "Enter"),
+    one("Enter", "Set an anchor just at the cursor", () => act.anchorHere(), "Enter"),
     one("Delete", "Remove the anchor nearest the cursor", () => act.removeNearest(), "Delete", "Backspace"),
-    one("1 2 3 4", "Lines along other ridges, the likeliest first", (event) => act.alternative(Number(event.key)), "1", "2", "3", "4"),
-    one("U, Ctrl+Z", "Undo", () => act.undo(), "u", "Ctrl+z"),
-    one("Y, Ctrl+Shift+Z", "Redo", () => act.redo(), "y", "Ctrl+y", "Ctrl+Z"),
+    one("J", "A corner of a guide at the cursor; Enter ends the guide", () => act.corner(), "j"),
+    one("1 2 3 4", "Show lines along other ridges; then take one", (event) => act.alternative(Number(event.key)), "1", "2", "3", "4"),
     one("M", "Put a mark at the cursor", () => act.mark(), "m"),
     one("L", "Straight line from the mark to the cursor", () => act.straight(), "l"),
     one("K", "The line cannot be seen from the mark to the cursor", () => act.hide(true), "k"),
     one("V", "It can be seen again there", () => act.hide(false), "v"),
     one("X", "Drop all that was asked for there", () => act.release(), "x"),
     one("F, Shift+F", "Keep the line away from the cursor; allow it again", (event) => act.forbid(event.shiftKey), "f", "F"),
-    one("A B S D H", "Tools: anchor, brush, straight, draw, hide", (event) => act.tool(event.key), "a", "b", "s", "d", "h"),
-    one("T", "Tags", () => act.tags(), "t"),
-    one("[ ]", "Previous, next photo", (event) => act.step(event.key === "[" || event.key === "PageUp" ? -1 : 1), "[", "]", "PageUp", "PageDown"),
-    one("+ − 0", "Zoom in, out, whole photo", (event) => act.zoom(event.key), "+", "=", "-", "0"),
-    one("Alt+arrows", "Move the photo", (event) => act.pan(event.key), "Alt+ArrowLeft", "Alt+ArrowRight", "Alt+ArrowUp", "Alt+ArrowDown"),
-    one("O", "Next overlay: the stages of the detector", () => act.overlay(), "o"),
-    one("G", "Stages in Rerun, with this line as truth", () => act.stages(), "g"),
-    one("W", "Sheet: strips of many photos", () => act.sheet(), "w"),
-    one("P", "Show or hide the list of photos", () => act.list(), "p"),
-    one("/", "Search photos", () => act.search(), "/"),
-    one("?", "These keys", () => act.help(), "?"),
     one("Escape", "Drop the mark and what is being shown", () => act.escape(), "Escape"),
+    ...part("Tools"),
+    one("A I B 5 S D H E", "Line, guide, brush, sky, straight, draw, hide, explain", (event) => act.tool(event.key), "a", "i", "b", "5", "s", "d", "h", "e"),
+    one(", .", "Smaller, larger brush", (event) => act.brush(event.key === "."), ",", "."),
   ];
 }
+
+/** What the mouse and fingers do; keys have a table of their own. */
+export const GESTURES = /** @type {const} */ ([
+  ["Click", "The line passes through the edge here, and leaves the ridge that it was on"],
+  ["Drag along a ridge", "A guide: the line snaps to the ridge"],
+  ["Drag an anchor", "Move it; a right click removes it"],
+  ["Wheel", "Zoom; sideways, move the photo"],
+  ["Right or middle drag, Alt+drag", "Move the photo"],
+  ["Click into a strip", "Go to that column"],
+  ["Shift+click", "The line passes just through this pixel"],
+  ["Alt with brush, hide or sky", "The other way: erase, show again, all below is terrain"],
+  ["Finger: tap, or aim and let go", "The line passes through there; what is under the finger is magnified"],
+  ["Finger: draw along a ridge", "A guide"],
+  ["Two fingers", "Zoom and move the photo"],
+  ["Ctrl+click, Shift+click in the list", "Choose several photos"],
+]);
 
 /** Keys that work in the sheet, too, on the photo of its card. */
 const EVERYWHERE = new Set([" ", "r", "q", "c", "u", "Ctrl+z", "y", "Ctrl+y", "Ctrl+Z", "t", "p", "/", "?"]);
@@ -80,6 +110,17 @@ export function listen(table, quiet, sheet) {
     event.preventDefault();
     entry.run(event);
   });
+}
+
+/**
+ * Call `up` when a key is let go.
+ *
+ * @param {string} key
+ * @param {() => void} up
+ */
+export function letGo(key, up) {
+  document.addEventListener("keyup", (event) => event.key.toLowerCase() === key && up());
+  addEventListener("blur", up);
 }
 
 /** @typedef {Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">} Pressed */

@@ -5,28 +5,33 @@
  * the `Queue`, which sends it until the server has kept it. The answer is told as `document`, and drawn.
  */
 
-import { Actions } from "./actions.js";
-import { makeActs } from "./acts.js";
-import { signIn } from "./api.js";
-import { begin } from "./begin.js";
-import { learn, prepare, showHelp, showMore, welcome } from "./dialogs.js";
-import { around, box, button, canvas } from "./dom.js";
-import { Header } from "./header.js";
-import { keyTable, listen } from "./keys.js";
-import { Labelling } from "./labelling.js";
-import { lineActions } from "./line_actions.js";
-import { Messages } from "./messages.js";
-import { Overlay } from "./overlay.js";
-import { PhotoList } from "./photo_list.js";
-import { Pointer } from "./pointer.js";
-import { Previewer } from "./previewer.js";
-import { Selection } from "./selection.js";
-import { Sheet } from "./sheet.js";
-import { Stage } from "./stage.js";
-import { Strips } from "./strips.js";
-import { restoreTheme, turnTheme } from "./theme.js";
-import { Toolbar } from "./toolbar.js";
-import { View } from "./view.js";
+import { makeActs, narrow, showList } from "./acts.js";
+import { Actions } from "./around/actions.js";
+import { begin } from "./around/begin.js";
+import { Brush } from "./around/brush.js";
+import { Choices } from "./around/choices.js";
+import { Chosen } from "./around/chosen.js";
+import { closeWelcome, learn, prepare, showHelp, showMore, welcome } from "./around/dialogs.js";
+import { ExplainedPanel } from "./around/explained.js";
+import { Header } from "./around/header.js";
+import { Messages } from "./around/messages.js";
+import { Overlay } from "./around/overlay.js";
+import { PhotoList } from "./around/photo_list.js";
+import { Sheet } from "./around/sheet.js";
+import { Toolbar } from "./around/toolbar.js";
+import { Tour } from "./around/tour.js";
+import { around, box, button, canvas } from "./basics/dom.js";
+import { restoreTheme, turnTheme } from "./basics/theme.js";
+import { Stage } from "./drawn/stage.js";
+import { Strips } from "./drawn/strips.js";
+import { lineActions } from "./gestures/line_actions.js";
+import { Pointer } from "./gestures/pointer.js";
+import { GESTURES, keyTable, letGo, listen } from "./keys.js";
+import { Labelling } from "./labelled/labelling.js";
+import { Previewer } from "./labelled/previewer.js";
+import { Selection } from "./labelled/selection.js";
+import { View } from "./labelled/view.js";
+import { signIn } from "./server/api.js";
 
 signIn({ location, history, storage: sessionStorage });
 restoreTheme();
@@ -37,27 +42,35 @@ const labelling = new Labelling();
 const view = new View();
 const selection = new Selection();
 const previewer = new Previewer(labelling, (part) => selection.preview(part));
-const line = lineActions({ labelling, view, selection, previewer, focus });
 const stage = new Stage(labelling, view, selection);
+const brush = new Brush(stage.lines);
+const line = lineActions({ labelling, view, selection, previewer, brush, focus });
+const explained = new ExplainedPanel(labelling, selection, focus);
+new Choices(labelling, selection, line, focus);
 const overlay = new Overlay(labelling, stage.photo);
-new Strips(labelling, view, line.goTo);
+new Strips(labelling, view, selection, line.goTo);
 new Messages(labelling, focus);
-const sheet = new Sheet(labelling, focus);
+const chosen = new Chosen(labelling);
+const sheet = new Sheet(labelling, chosen, focus);
 const actions = new Actions(labelling, sheet);
 new Header(labelling, actions, sheet);
-new PhotoList(labelling, (id, clicked) => {
+new PhotoList(labelling, chosen, (id, clicked) => {
   sheet.hide();
-  if (clicked) focus(); // else the next key would go into the search
+  if (clicked) {
+    if (narrow()) showList(false); // it lies over the photo
+    focus(); // else the next key would go into the search
+  }
   labelling.open(id);
 });
 const toolbar = new Toolbar(box("tools"));
-const pointer = new Pointer({ canvas: lines, view, selection, labelling, previewer, anchor: line.setAnchor, goTo: line.goTo });
-const act = makeActs({ labelling, line, actions, toolbar, overlay, sheet, help: () => showHelp(table) });
+const pointer = new Pointer({ canvas: lines, view, selection, labelling, previewer, brush, line: { ...line, anchor: line.setAnchor, goTo: line.select, explain: (pixel) => explained.show(pixel) } });
+const act = makeActs({ labelling, selection, stage, line, actions, toolbar, overlay, sheet, explained, brush, help: () => showHelp(table, GESTURES) });
 const table = keyTable(act);
 
 sheet.on("finish", (status) => actions.finish(status));
 toolbar.on("tool", ({ id, name, title }) => {
   pointer.use(id);
+  brush.show(id === "forbid");
   lines.style.cursor = id === "forbid" ? "cell" : "crosshair";
   labelling.say(`${name}. ${title}`);
 });
@@ -76,17 +89,21 @@ listen(table, (event) => {
   const moving = event.key.startsWith("Arrow") && around(event, "input, [role=listbox], [role=radiogroup]");
   return Boolean(typing || pressing || moving || document.querySelector("dialog[open]"));
 }, () => sheet.shown);
+letGo("z", () => act.magnify(false));
 const buttons = {
   "list-toggle": act.list, previous: () => act.step(-1), next: () => act.step(1), undo: act.undo, redo: act.redo,
   accept: () => act.finish("accepted"), review: () => act.finish("needs review"), reject: () => act.finish("rejected"),
-  tags: act.tags, help: act.help, fit: () => view.fit(), "sheet-open": act.sheet, stages: act.stages,
+  tags: act.tags, help: act.help, others: act.others, fit: () => view.fit(), "sheet-open": act.sheet, stages: act.stages,
   more: () => showMore(labelling), learn: () => learn(labelling), theme: turnTheme,
 };
 for (const [id, run] of Object.entries(buttons)) button(id).addEventListener("click", () => run());
+const tour = new Tour(focus);
+button("tour-begin").addEventListener("click", () => closeWelcome(() => tour.begin()));
 addEventListener("online", () => labelling.queue.wake());
 addEventListener("beforeunload", (event) => labelling.queue.waiting && event.preventDefault());
 prepare(() => (sheet.shown ? sheet.home : lines));
 
+if (narrow()) showList(false);
 toolbar.choose("a");
 labelling.say("");
 if (await begin(labelling, (words) => stage.instead(words))) welcome();

@@ -40,6 +40,7 @@ export interface Document {
   spans: ShownSpan[];
   forbidden: Stroke[];
   guides: [number, number][];
+  sides: ShownSide[];
   can_undo: boolean;
   can_redo: boolean;
   undo_what: string | null;
@@ -56,12 +57,32 @@ export interface Draw {
   rows: number[];
 }
 
+/** One pixel, all the way down, see `explanation.Explanation`. */
+export interface Explained {
+  row: number;
+  column: number;
+  colours: [number, number, number][][];
+  edge: boolean;
+  why_edge: string;
+  gradient: number | null;
+  score: number | null;
+  filtered: ShownFilter | null;
+  terms: { [name: string]: number };
+  cost: number | null;
+}
+
 /** A stroke of the brush, or of its eraser. */
 export interface Forbid {
   kind: "forbid";
   points: [number, number][];
   radius: number;
   allow?: boolean;
+}
+
+/** What a click came to on the photo as it was. */
+export interface Found {
+  row: number;
+  left?: Left | null;
 }
 
 /** The line lies along a rough stroke. */
@@ -87,11 +108,18 @@ export interface Learning {
   changed: number;
 }
 
+/** The piece of the line that a click has left for another ridge, see `steering.Left`. */
+export interface Left {
+  points: [number, number][];
+  radius: number;
+}
+
 /** What is the same for every photo: words and colours that the page shows. */
 export interface Legend {
   statuses: Status[];
   tags: string[];
-  stages: string[];
+  hidden_by: string[];
+  stages: { [name: string]: string };
   formats: ShownFormat[];
   colours: Colours;
   tile: number;
@@ -107,10 +135,12 @@ export interface Margins {
 
 /** An anchor is dragged. */
 export interface MoveAnchor {
-  kind: "move";
-  from_column: number;
   column: number;
   row: number;
+  within?: number;
+  found?: Found | null;
+  kind: "move";
+  from_column: number;
 }
 
 /** The photo is shown: the clock starts. */
@@ -138,6 +168,7 @@ export interface Pixel {
   column: number;
   row: number;
   lifted?: number | null;
+  within?: number;
 }
 
 /** What was asked for in some columns is dropped. */
@@ -162,9 +193,11 @@ export interface Rough {
 
 /** The line passes through a pixel. */
 export interface SetAnchor {
-  kind: "anchor";
   column: number;
   row: number;
+  within?: number;
+  found?: Found | null;
+  kind: "anchor";
 }
 
 /** The photo is accepted, rejected, or to be looked at again. */
@@ -193,6 +226,22 @@ export interface ShownAlternative {
   apart: number;
   points: [number, number][];
   radius: number;
+}
+
+/** How a pixel's score comes about, see `explanation.Filtered`. */
+export interface ShownFilter {
+  strength: number;
+  coherence: number;
+  orientation: number;
+  axes: [number, number];
+  bin: number;
+  why: [string, string, string];
+  samples: number;
+  starved: boolean;
+  patch: number[][];
+  taps: number[][];
+  product: number[][];
+  score: number;
 }
 
 /** A format in which labels leave. */
@@ -225,11 +274,25 @@ export interface ShownProgress {
   seconds_left: number | null;
 }
 
+/** Columns in which all above a stroke is sky, or all below it is terrain. */
+export interface ShownSide {
+  first: number;
+  rows: number[];
+  ground: "sky" | "terrain";
+}
+
 /** A span. */
 export interface ShownSpan {
   kind: string;
   first: number;
   last: number;
+}
+
+/** All above a stroke is sky, or all below it is terrain: the line keeps to the other side. */
+export interface Side {
+  kind: "side";
+  points: [number, number][];
+  ground: "sky" | "terrain";
 }
 
 /** Undo or redo. */
@@ -261,6 +324,7 @@ export type Operation =
   | RemoveAnchor
   | Forbid
   | Guide
+  | Side
   | Straight
   | Draw
   | Hide

@@ -12,8 +12,9 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from annotate.engine.edits import Edits, Span, SpanKind, Steering, Stroke
+from annotate.engine.edits import Edits, Span, SpanKind
 from annotate.engine.guide import Guide
+from annotate.engine.steering import Ground, Left, Side, Steering, Stroke
 from annotate.store.history import State, Step
 from annotate.store.labels import Status
 from annotate.store.operations import Change
@@ -47,6 +48,18 @@ class _Guide(_Part):
     bottoms: tuple[int, ...]
 
 
+class _Side(_Part):
+    first: int
+    rows: tuple[int, ...]
+    ground: Ground
+
+
+class _Left(_Part):
+    points: tuple[tuple[int, int], ...]
+    radius: int
+    of: int
+
+
 class _Checkpoint(_Part):
     version: Literal[1]
     label: int
@@ -54,7 +67,7 @@ class _Checkpoint(_Part):
     width: int
     anchors: list[tuple[int, int]]
     spans: tuple[_Span, ...]
-    strokes: tuple[_Stroke | _Guide, ...]
+    strokes: tuple[_Stroke | _Guide | _Side | _Left, ...]
     hidden: tuple[tuple[int, int], ...]
     steps: list[tuple[Change, Status]]
     taken: tuple[Change, ...]
@@ -65,6 +78,9 @@ class _Checkpoint(_Part):
     count: int
     last: int
     revision: int
+
+
+_STEERING = {_Stroke: Stroke, _Guide: Guide, _Side: Side, _Left: Left}
 
 
 def packed(state: State, label: int) -> bytes:
@@ -105,10 +121,7 @@ def unpacked(data: bytes, label: int, empty: Edits) -> State | None:
             found.width,
             MappingProxyType(dict(found.anchors)),
             tuple(Span(**vars(one)) for one in found.spans),
-            tuple(
-                Stroke(**vars(one)) if isinstance(one, _Stroke) else Guide(**vars(one))
-                for one in found.strokes
-            ),
+            tuple(_STEERING[type(one)](**vars(one)) for one in found.strokes),
             found.hidden,
         ),
         steps=tuple(Step(change, status) for change, status in found.steps),
@@ -116,7 +129,11 @@ def unpacked(data: bytes, label: int, empty: Edits) -> State | None:
     )
 
 
-def _steering(one: Steering) -> _Stroke | _Guide:
+def _steering(one: Steering) -> _Stroke | _Guide | _Side | _Left:
     if isinstance(one, Guide):
         return _Guide.model_construct(first=one.first, tops=one.tops, bottoms=one.bottoms)
+    if isinstance(one, Side):
+        return _Side.model_construct(first=one.first, rows=one.rows, ground=one.ground)
+    if isinstance(one, Left):
+        return _Left.model_construct(points=one.points, radius=one.radius, of=one.of)
     return _Stroke.model_construct(points=one.points, radius=one.radius, allow=one.allow)

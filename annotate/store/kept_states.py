@@ -107,7 +107,7 @@ def known(database: sqlite3.Connection, asked: Request) -> int | None:
         ).fetchone()
     )
     if before:
-        if before[1:] != (asked.label, asked.kind, asked.text):
+        if before[1:3] != (asked.label, asked.kind) or _asked(before[3]) != _asked(asked.text):
             raise StaleError("the id of this request belongs to another one.", now)
         return _revision_at(database, asked.label, before[0])
     if asked.revision not in (-1, now):
@@ -199,6 +199,12 @@ def read(database: sqlite3.Connection, label: int) -> State:
         (label, start.last),
     )
     return replace(folded(start, log), line=last_line(database, label))
+
+
+def _asked(text: str) -> dict[str, Any]:
+    """What somebody asked for, without what was found when it was done."""
+    body: dict[str, Any] = json.loads(text)
+    return {name: value for name, value in body.items() if name != "found"}
 
 
 def _fits(database: sqlite3.Connection, label: int, start: State) -> bool:

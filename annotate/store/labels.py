@@ -20,6 +20,15 @@ STATUSES: tuple[Status, ...] = get_args(Status)
 TAGS = ("no visible skyline", "not left to right", "needs terrain data")
 """Tags that are offered; annotators add their own."""
 
+HIDDEN_BY = (
+    "hidden by cloud",
+    "hidden by fog",
+    "hidden by a building",
+    "hidden by a person",
+    "hidden by a frame",
+)
+"""Tags that say why a line cannot be seen."""
+
 
 MOST_PASSES = 1_000_000
 """The largest number of a pass."""

@@ -10,6 +10,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, Strict, TypeAdapter
 
+from annotate.engine import steering
 from annotate.engine.edits import Edits
 from annotate.store.labels import Status
 
@@ -30,29 +31,62 @@ class _Operation(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class SetAnchor(_Operation):
+class Left(_Operation):
+    """The piece of the line that a click has left for another ridge, see `steering.Left`."""
+
+    points: Points
+    radius: Annotated[int, Field(ge=0, le=1000)]
+
+
+class Found(_Operation):
+    """What a click came to on the photo as it was."""
+
+    row: Place
+    """Row of the anchor."""
+
+    left: Left | None = None
+    """The piece of the line that was left for it."""
+
+
+class _Click(_Operation):
+    column: Place
+    row: Place
+    within: Annotated[int, Field(ge=0, le=1000)] = 0
+    """The anchor is the best edge no more than so many rows away; 0 for exactly here."""
+
+    found: Found | None = None
+    """Filled in before the operation is kept, so that the log says all. Logs of before know no such
+    thing: their anchors lie where they were set, and nothing was left."""
+
+    @property
+    def _row(self) -> int:
+        return self.found.row if self.found else self.row
+
+    @property
+    def _left(self) -> steering.Left | None:
+        left = self.found and self.found.left
+        return steering.Left(tuple(left.points), left.radius, self.column) if left else None
+
+
+class SetAnchor(_Click):
     """The line passes through a pixel."""
 
     kind: Literal["anchor"] = "anchor"
-    column: Place
-    row: Place
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the anchor."""
-        return edits.anchor(self.column, self.row)
+        return edits.anchor(self.column, self._row, self._left)
 
 
-class MoveAnchor(_Operation):
+class MoveAnchor(_Click):
     """An anchor is dragged."""
 
     kind: Literal["move"] = "move"
     from_column: Place
-    column: Place
-    row: Place
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the anchor elsewhere."""
-        return edits.move(self.from_column, self.column, self.row)
+        return edits.move(self.from_column, self.column, self._row, self._left)
 
 
 class RemoveAnchor(_Operation):
@@ -98,6 +132,18 @@ class Guide(Rough):
     def on(self, edits: Edits) -> Edits:
         """Edits with the guide."""
         return edits.guide(self.points, self.radius, self.times)
+
+
+class Side(_Operation):
+    """All above a stroke is sky, or all below it is terrain: the line keeps to the other side."""
+
+    kind: Literal["side"] = "side"
+    points: Points
+    ground: steering.Ground
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with the side."""
+        return edits.side(self.points, self.ground)
 
 
 class Straight(_Operation):
@@ -190,7 +236,16 @@ class Redo(_Operation):
 
 
 Edit: TypeAlias = Annotated[
-    SetAnchor | MoveAnchor | RemoveAnchor | Forbid | Guide | Straight | Draw | Hide | Release,
+    SetAnchor
+    | MoveAnchor
+    | RemoveAnchor
+    | Forbid
+    | Guide
+    | Side
+    | Straight
+    | Draw
+    | Hide
+    | Release,
     Field(discriminator="kind"),
 ]
 """What changes the line."""
@@ -230,6 +285,8 @@ def spoken(change: Change) -> str:
         return change.status
     if isinstance(change, Forbid) and change.allow:
         return "the eraser stroke"
+    if isinstance(change, Side):
+        return "all above is sky" if change.ground == "sky" else "all below is terrain"
     if isinstance(change, Hide) and not change.hidden:
         return "the columns shown again"
     return _SPOKEN[change.kind]

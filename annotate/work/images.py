@@ -7,6 +7,7 @@ import numpy as np
 
 from annotate.work.pictures import Picture
 from skyline_viz.arrays import U8
+from skyline_viz.overlay import draw_overlay
 from skyline_viz.picture_files.reduced import reduced_jpeg
 from skyline_viz.skyline import Skyline
 
@@ -81,13 +82,28 @@ def tile(photo: U8, across: int, down: int) -> Picture:
     return png(photo[down * TILE : (down + 1) * TILE, across * TILE : (across + 1) * TILE])
 
 
+def overview(photo: U8, skyline: Skyline) -> Picture:
+    """A JPEG of at most `SMALL` pixels with the line on it."""
+    height, width = _small_size(*photo.shape[:2])
+    scale = height / len(photo)
+    columns = np.minimum(((np.arange(width) + 0.5) * skyline.width / width), skyline.width - 1)
+    at = columns.astype(np.intp)
+    line = Skyline(rows=skyline.rows[at] * scale, visible=skyline.visible[at])
+    return jpeg(draw_overlay(_reduced(photo, (height, width)), line), 85, exact_colours=True)
+
+
 def strip(photo: U8, skyline: Skyline, width: int) -> Picture:
-    """The band around a line, straightened, as PNG: the line lies on top of row `BAND`."""
+    """The band around a line, straightened, as PNG: the line lies on top of row `BAND`.
+
+    What would lie outside the photo is transparent.
+    """
     height = len(photo)
     rows = np.floor(skyline.rows + 0.5).astype(np.intp)
     around = np.arange(-BAND, BAND + 1)[:, None] + rows[None, :]
     band = photo[around.clip(0, height - 1), np.arange(skyline.width)[None, :]]
-    band[(around < 0) | (around >= height)] = 0
+    inside = (around >= 0) & (around < height)
+    if not inside.all():
+        band = np.dstack([band, np.where(inside, 255, 0).astype(np.uint8)])
     return png(_reduced(band, (2 * BAND + 1, width)))
 
 

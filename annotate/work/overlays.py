@@ -26,14 +26,16 @@ _ENOUGH = 200_000  # values that tell where the colours begin and end
 Size = tuple[int, int]
 
 
-def overlays(detection: Detection) -> tuple[str, ...]:
-    """What can be laid over a photo: the maps among its stages, and the terms of its cost.
+def overlays(detection: Detection) -> dict[str, str]:
+    """What can be laid over a photo, and how it reads: maps among its stages, terms of its cost.
 
     A term with the name of a stage, such as the score, is shown by that.
     """
-    stages = [name for name, one in detection.stages.items() if one.where != "columns"]
+    stages = {
+        name: one.quantity.title for name, one in detection.stages.items() if one.where != "columns"
+    }
     terms = [term.name for term in detection.cost_model.nodal if term.weight]
-    return tuple(dict.fromkeys([*stages, *terms]))
+    return stages | {name: of_term(name).title for name in terms if name not in stages}
 
 
 def overlay(detection: Detection, name: str) -> Picture:

@@ -12,7 +12,20 @@ from annotate.store.kept_states import Request, StaleError
 from annotate.store.label_table import require_fit
 from annotate.store.lines import Line
 from annotate.store.opened import Opened
-from annotate.store.operations import Logged, Open, Operation, Redo, SetStatus, SetTag, Undo
+from annotate.store.operations import (
+    Edit,
+    Found,
+    Left,
+    Logged,
+    MoveAnchor,
+    Open,
+    Operation,
+    Redo,
+    SetAnchor,
+    SetStatus,
+    SetTag,
+    Undo,
+)
 from annotate.store.store import Photo, Store
 from skyline_viz.arrays import F64, U8
 from skyline_viz.constraints import PathError
@@ -102,7 +115,18 @@ class Session:
                 self._require_sense(operation)
             if isinstance(operation, SetTag | SetStatus | Open):
                 return self._append(asked, None)
-            return self._edit(operation.on(self.wire.edits), asked)
+            found = self._found(operation)
+            return self._edit(found.on(self.wire.edits), self._asked(found, revision, id))
+
+    def _found(self, operation: Edit) -> Edit:
+        """An operation with what it comes to on this photo as it is now."""
+        if not isinstance(operation, SetAnchor | MoveAnchor):
+            return operation
+        lifted = operation.from_column if isinstance(operation, MoveAnchor) else None
+        where = operation.column, operation.row
+        row, left = self.wire.clicked(*where, operation.within, lifted)
+        piece = Left(points=list(left.points), radius=left.radius) if left else None
+        return operation.model_copy(update={"found": Found(row=row, left=piece)})
 
     def undo(self, revision: int, id: str | None = None) -> int:  # noqa: A002
         """Take the last edit or status back; arguments, result and errors are those of `apply`."""

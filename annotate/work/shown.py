@@ -96,22 +96,37 @@ class Pictures:
         Raises:
             PathError: There is no line yet.
         """
+        return self._with_line(
+            photo, ("strip", width), lambda pixels, line: images.strip(pixels, line, width)
+        )
+
+    def overview(self, photo: int) -> Picture:
+        """A small picture of a photo with its line on it.
+
+        Raises:
+            PathError: There is no line yet.
+        """
+        return self._with_line(photo, ("overview",), images.overview)
+
+    def _with_line(
+        self, photo: int, what: tuple[Hashable, ...], draw: Callable[[U8, Skyline], Picture]
+    ) -> Picture:
+        """A picture of a photo and its line: of one that is closed without opening it."""
         bench = self._bench
         line = bench.store.line(bench.label(photo))
+        content: Hashable
+        pixels: Callable[[], U8]
         if line is None or bench.is_open(photo):
             session = bench.session(photo)
             with session.lock:
                 skyline = session.wire.skyline
-            return self._strip((session.content, photo), skyline, width, lambda: session.pixels)
-        one = bench.photo(photo)
-        whole = self._file(one), photo  # the file of another photo may have taken its place
-        return self._strip(whole, line.skyline, width, lambda: read_whole(bench.store, one))
-
-    def _strip(
-        self, content: Hashable, skyline: Skyline, width: int, pixels: Callable[[], U8]
-    ) -> Picture:
-        key = (content, "strip", width, skyline.rows.tobytes())
-        return self._get(key, lambda: images.strip(pixels(), skyline, width))
+            content, pixels = session.content, lambda: session.pixels
+        else:
+            one = bench.photo(photo)
+            content, skyline = self._file(one), line.skyline  # another photo may be in its place
+            pixels = lambda: read_whole(bench.store, one)  # noqa: E731
+        key = (content, photo, *what, skyline.rows.tobytes(), skyline.visible.tobytes())
+        return self._get(key, lambda: draw(pixels(), skyline))
 
     def _get(self, key: Hashable, make: Callable[[], Picture]) -> Picture:
         def in_turn() -> Picture:

@@ -227,15 +227,15 @@ class Workbench:
             changed += before is not None and not worked_on
         return changed
 
-    def overlays(self) -> tuple[str, ...]:
-        """What can be laid over a photo: stages and terms of what proposes, the same for all.
+    def overlays(self) -> dict[str, str]:
+        """What can be laid over a photo: stages and terms of what proposes, and how they read.
 
         Of a method that refuses so small a photo only the stages that all methods have are known.
         """
         try:
             return overlays(self.detector.detect(_SMALL))
         except Exception:  # of somebody's own method; what is wrong is said where it proposes
-            return ("edges", "score", "cost")
+            return {one: one.capitalize() for one in ("edges", "score", "cost")}
 
     def detection(self, session: Session) -> Detection:
         """All stages of an open photo, by the detector that made its proposal.

@@ -33,7 +33,7 @@ class Page:
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("console", self._heard)
         self.open()
-        self.page.locator("#first-dialog button").click()
+        self.page.locator("#first-dialog button.primary").click()
         self.page.locator("#first-dialog").wait_for(state="hidden")
         self.page.locator("#lines:focus").wait_for()  # which is told a moment later
 

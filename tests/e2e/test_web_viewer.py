@@ -62,7 +62,7 @@ def test_g_opens_the_stages_beside_the_page(context, tmp_path, name):
         here = f"{name}:{client.base_url.port}"
         page = context.new_page()
         page.goto(f"http://{here}/?token={TOKEN}")
-        page.locator("#first-dialog button").click()
+        page.locator("#first-dialog button.primary").click()
         page.locator("#name", has_text="hill-0.png").wait_for()
         with context.expect_page() as opened:
             page.keyboard.press("g")

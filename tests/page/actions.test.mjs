@@ -5,9 +5,9 @@ import { beforeEach, test } from "node:test";
 
 import { Server } from "./server.mjs";
 import { quiet } from "./stubs.mjs";
-import { Actions } from "../../annotate/static/actions.js";
-import { Events } from "../../annotate/static/events.js";
-import { Labelling } from "../../annotate/static/labelling.js";
+import { Actions } from "../../annotate/static/around/actions.js";
+import { Events } from "../../annotate/static/basics/events.js";
+import { Labelling } from "../../annotate/static/labelled/labelling.js";
 
 /** A sheet without cards to look at. */
 class Sheet extends Events {

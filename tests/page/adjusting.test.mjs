@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { NEUTRAL, change, curve } from "../../annotate/static/adjusting.js";
+import { NEUTRAL, change, curve } from "../../annotate/static/drawn/adjusting.js";
 
 const levels = Array.from({ length: 256 }, (_, level) => level);
 

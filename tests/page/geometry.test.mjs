@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { chance } from "./model.mjs";
-import { alongOldLine, brushed, columnAt, drawn, nearest, nextUncertain, thinned, uncertainty } from "../../annotate/static/geometry.js";
+import { brushed, drawn, nearest, thinned, uncertainty } from "../../annotate/static/basics/geometry.js";
 
 const line = (length) => Array.from({ length }, (_, at) => [at, at]);
 
@@ -55,37 +55,10 @@ test("the nearest anchor within reach is found", () => {
   assert.equal(nearest([], away), undefined);
 });
 
-test("the old line around a new anchor is kept out up to an eighth of the photo, and not to its neighbours", () => {
-  const shown = { width: 800, height: 520, rows: Array(800).fill(100), anchors: [] };
-  const { points, radius } = alongOldLine(shown, [400, 150]);
-  assert.equal(radius, 2);
-  assert.deepEqual([points[0], points.at(-1)], [[300, 100], [498, 100]]); // every third column
-  const between = alongOldLine({ ...shown, anchors: [[350, 100], [420, 100]] }, [400, 150]).points;
-  assert.deepEqual([between[0][0], between.at(-1)[0]], [363, 405]); // an eighth of the room is left at each
-  assert.deepEqual(alongOldLine(shown, [2, 150]).points[0], [0, 100]);
-});
-
-test("nothing is kept out where the line is close already", () => {
-  const shown = { width: 800, height: 520, rows: Array(800).fill(100), anchors: [] };
-  assert.deepEqual(alongOldLine(shown, [400, 104]).points, []);
-  assert.notDeepEqual(alongOldLine(shown, [400, 105]).points, []);
-});
-
-test("uncertain columns are visited from left to right and round, the least certain one first", () => {
-  const uncertain = [50, 10, 90];
-  assert.equal(nextUncertain(uncertain, undefined, 1), 50);
-  assert.deepEqual([10, 50, 90].map((from) => nextUncertain(uncertain, from, 1)), [50, 90, 10]);
-  assert.deepEqual([10, 50, 90].map((from) => nextUncertain(uncertain, from, -1)), [90, 10, 50]);
-  assert.deepEqual([nextUncertain(uncertain, 60, 1), nextUncertain(uncertain, 60, -1)], [90, 50]);
-  assert.equal(nextUncertain([], 3, 1), undefined);
-});
-
 test("a bar is as uncertain as its least certain column, whether it has many or shares one", () => {
   assert.deepEqual(uncertainty([0, null, 4, 2], 2), [1, 0.25]);
   assert.deepEqual(uncertainty([0, 4], 4), [1, 1, 0, 0]);
   assert.deepEqual(uncertainty([null, 9], 2), [0, 0]);
-});
-
-test("a place in a strip is a column of the photo", () => {
-  assert.deepEqual([0, 50, 99.9, 100, -1].map((x) => columnAt(x, 100, 400)), [0, 200, 399, 399, 0]);
+  assert.deepEqual(uncertainty([0, 4, 4, 0], 6, -1, 6), [0, 1, 0, 0, 1, 0]); // beside the photo there is nothing
+  assert.deepEqual(uncertainty([0, 4, 4, 0], 2, 2, 2), [0, 1]);
 });

@@ -5,7 +5,7 @@ import { beforeEach, test } from "node:test";
 
 import { Server, listed } from "./server.mjs";
 import { quiet } from "./stubs.mjs";
-import { Labelling } from "../../annotate/static/labelling.js";
+import { Labelling } from "../../annotate/static/labelled/labelling.js";
 
 let server;
 

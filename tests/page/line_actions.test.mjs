@@ -5,25 +5,26 @@ import { beforeEach, test } from "node:test";
 
 import { answer } from "./model.mjs";
 import { Asked, Labelled, photo, soon } from "./stubs.mjs";
-import { me } from "../../annotate/static/api.js";
-import { lineActions } from "../../annotate/static/line_actions.js";
-import { Selection } from "../../annotate/static/selection.js";
-import { View } from "../../annotate/static/view.js";
+import { me } from "../../annotate/static/server/api.js";
+import { lineActions } from "../../annotate/static/gestures/line_actions.js";
+import { Selection } from "../../annotate/static/labelled/selection.js";
+import { View } from "../../annotate/static/labelled/view.js";
 
 let labelling;
 let selection;
 let previewer;
 let act;
+let view;
 
 beforeEach(() => {
   Object.assign(me, { token: "token", pass: "the pass" });
   labelling = new Labelled();
   selection = new Selection();
   previewer = new Asked();
-  const view = new View();
+  view = new View();
   view.resize(400, 240);
   view.show(400, 240);
-  act = lineActions({ labelling, view, selection, previewer, focus: () => {} });
+  act = lineActions({ labelling, view, selection, previewer, brush: { radius: 12 }, focus: () => {} });
 });
 
 test("without a photo, or while another is on its way, nothing is done", () => {
@@ -42,25 +43,17 @@ test("the first arrow shows the cursor, the next ones move it, and Enter sets an
   act.moveRow(-7);
   assert.deepEqual(labelling.said.at(-1), "Column 210, row 93.");
   assert.deepEqual(previewer.asked, [[210, 93]]);
-  act.anchorHere(false);
-  assert.deepEqual(labelling.applied, [{ kind: "anchor", column: 210, row: 93 }]);
+  act.anchorHere();
+  assert.deepEqual(labelling.applied, [{ kind: "anchor", column: 210, row: 93, within: 0 }]);
   assert.deepEqual(selection.now.cursor, { column: 210, row: null });
 });
 
 test("what an anchor will look like is shown at once where that is known", () => {
   previewer.part = { first: 0, rows: [1] };
-  act.setAnchor(5, 6);
-  act.setAnchor(7, 8, true); // with a stroke before it, the line will be another one
-  assert.deepEqual(labelling.applied.map((one) => Array.isArray(one)), [true, false, false]);
-});
-
-test("an anchor that leaves the old line around brushes along that", () => {
-  act.setAnchor(200, 150, true);
-  const [stroke, anchor] = labelling.applied;
-  assert.deepEqual([stroke.kind, stroke.allow, stroke.points[0], stroke.points.at(-1)], ["forbid", false, [150, 100], [249, 100]]);
-  assert.deepEqual(anchor, { kind: "anchor", column: 200, row: 150 });
-  act.setAnchor(200, 102, true); // it runs there already
-  assert.deepEqual(labelling.applied.length, 3);
+  act.setAnchor(5, 6, 2);
+  previewer.part = null;
+  act.setAnchor(7, 8);
+  assert.deepEqual(labelling.applied, [[{ kind: "anchor", column: 5, row: 6, within: 2 }, { first: 0, rows: [1] }], { kind: "anchor", column: 7, row: 8, within: 0 }]);
 });
 
 test("a straight line needs a mark, which is used up by it", () => {
@@ -103,32 +96,55 @@ test("the brush keeps the line away from the cursor", () => {
     [[[[200, 100]], 12, false], [[[200, 100]], 12, true]]);
 });
 
-test("uncertain columns are visited, and said to be so", () => {
+test("uncertain spans are visited and counted, and looked at closely", () => {
   act.uncertain(1);
-  assert.deepEqual(labelling.said, ["No column is uncertain."]);
-  labelling.margins = { revision: 3, margins: Array(400).fill(0.25), uncertain: [300, 20] };
+  assert.match(labelling.said.at(-1), /being measured/);
+  labelling.margins = { revision: 3, margins: Array(400).fill(3), uncertain: [] };
   act.uncertain(1);
+  assert.equal(labelling.said.at(-1), "No span is uncertain.");
+  for (const [column, margin] of [[20, 0.3], [300, 0.1], [304, 0.25]]) labelling.margins.margins[column] = margin;
   act.uncertain(1);
-  assert.deepEqual(labelling.said.slice(1), ["Column 300, margin 0.25.", "Column 20, margin 0.25."]);
+  assert.equal(labelling.said.at(-1), "Uncertain span 2 of 2: columns 300 to 304. Another line there costs only 0.10 more.");
+  act.uncertain(1);
+  assert.equal(labelling.said.at(-1), "Uncertain span 1 of 2: column 20. Another line there costs only 0.30 more.");
+  assert.deepEqual(selection.now.cursor, { column: 20, row: null });
+  assert.ok(view.scale > 1);
 });
 
-test("other lines are taken by number, on the photo they were asked for alone", async () => {
+test("why a line cannot be seen is asked, and why it can is not", () => {
+  labelling.legend = { hidden_by: ["hidden by cloud"] };
+  let asked;
+  labelling.say = (text, bad, undo, choices) => { asked = [text, choices.map(({ words }) => words)]; };
+  act.did({ kind: "hidden", first: 3, last: 9, hidden: true });
+  assert.deepEqual(asked, ["Columns 3 to 9 are not visible.", ["hidden by cloud"]]);
+  act.did({ kind: "hidden", first: 3, last: 9, hidden: false });
+  assert.deepEqual(asked, ["Columns 3 to 9 are visible.", []]);
+});
+
+test("other lines are shown first and then taken by number, on the photo they were asked for alone", async () => {
   let arrive;
-  globalThis.fetch = () => new Promise((done) => { arrive = () => done(answer(200, { alternatives: [{ points: [[0, 80], [399, 70]], radius: 4 }] })); });
+  const one = { points: [[0, 80], [399, 70]], radius: 4, rows: Array(400).fill(80), detour: 1, apart: 1 };
+  globalThis.fetch = () => new Promise((done) => { arrive = () => done(answer(200, { alternatives: [one] })); });
   const settle = async () => {
     arrive();
     for (let turn = 0; turn < 5; turn++) await soon();
   };
   act.alternative(1);
   await settle();
-  assert.deepEqual(labelling.applied, [{ kind: "guide", points: [[0, 80], [399, 70]], radius: 4 }]);
+  assert.deepEqual([labelling.applied, selection.now.others], [[], [one]]);
   act.alternative(2);
-  await settle();
-  assert.equal(labelling.said.at(-1), "There are 1 other line.");
+  assert.equal(labelling.said.at(-1), "There is 1 other line.");
   act.alternative(1);
+  assert.deepEqual(labelling.applied, [[{ kind: "guide", points: one.points, radius: 4 }, { first: 0, rows: one.rows }]]);
+  assert.deepEqual(selection.now.others, []);
+  act.others();
   labelling.document = photo({ id: 2 });
   await settle();
-  assert.equal(labelling.applied.length, 1);
+  assert.deepEqual(selection.now.others, []); // they are another photo's
+  act.others();
+  await settle();
+  labelling.show(photo({ id: 2, revision: 4 }));
+  assert.deepEqual(selection.now.others, []); // the line is another one
 });
 
 test("Escape drops everything that is selected", () => {

@@ -5,25 +5,27 @@ import { readFileSync, readdirSync } from "node:fs";
 import { test } from "node:test";
 
 const PLACE = new URL("../../annotate/static/", import.meta.url);
-const MODULES = readdirSync(PLACE).filter((name) => name.endsWith(".js"));
+const MODULES = readdirSync(PLACE, { recursive: true }).filter((name) => name.endsWith(".js"));
 const TEXTS = new Map(MODULES.map((name) => [name, readFileSync(new URL(name, PLACE), "utf8")]));
-const IMPORTS = new Map(MODULES.map((name) => [name, [...TEXTS.get(name).matchAll(/^import .*?from "\.\/(.+?)";$/gms)].map(([, of]) => of)]));
+const IMPORTS = new Map(MODULES.map((name) => [name, [...TEXTS.get(name).matchAll(/^import .*?from "(\.{1,2}\/.+?)";$/gms)]
+  .map(([, of]) => new URL(of, new URL(name, PLACE)).href.slice(PLACE.href.length))]));
 
-/** Modules of layers, the lowest first; each imports from its own layer and those below it, and in no circle. */
+/** Folders of modules, the lowest first; each imports from itself and those below it, and in no circle. */
 const LAYERS = {
-  "numbers, words and events": ["events", "geometry", "operations", "words", "drawing", "dom", "theme"],
-  "the server and what waits for it": ["api", "senseless", "queue", "shelf", "tiles", "thumbnails"],
-  "what is labelled, seen and selected": ["labelling", "view", "selection", "previewer"],
-  "what is drawn": ["adjusting", "hatching", "magnifier", "waiting", "line_layer", "photo_layer", "stage", "strips"],
-  "what is done": ["strokes", "tools", "pointer", "line_actions"],
-  "what is around the photo": ["begin", "cards", "dialogs", "messages", "overlay", "photo_list", "sheet", "toolbar", "actions", "header"],
-  "the page": ["acts", "keys", "main"],
+  basics: "numbers, words and events",
+  server: "the server, and what waits for it",
+  labelled: "what is labelled, seen and selected",
+  drawn: "what is drawn",
+  gestures: "what is done on the photo",
+  around: "what is around the photo",
+  "": "the page",
 };
 
-const layerOf = (name) => Object.values(LAYERS).findIndex((names) => names.includes(name.replace(".js", "")));
+const folderOf = (name) => name.split("/").slice(0, -1).join("/");
+const layerOf = (name) => Object.keys(LAYERS).indexOf(folderOf(name));
 
-test("every module has a layer, and every layer's modules are there", () => {
-  assert.deepEqual(Object.values(LAYERS).flat().map((name) => `${name}.js`).toSorted(), MODULES.toSorted());
+test("every folder has a layer, and every layer a folder", () => {
+  assert.deepEqual([...new Set(MODULES.map(folderOf))].toSorted(), Object.keys(LAYERS).toSorted());
 });
 
 test("imports go one way", () => {
@@ -42,9 +44,9 @@ test("no module imports itself, however far around", () => {
 });
 
 test("the network is used in one place", () => {
-  for (const [name, text] of TEXTS) if (name !== "api.js") assert.ok(!/\bfetch\(|XMLHttpRequest|WebSocket/.test(text), name);
+  for (const [name, text] of TEXTS) if (name !== "server/api.js") assert.ok(!/\bfetch\(|XMLHttpRequest|WebSocket/.test(text), name);
 });
 
 test("elements of the page are looked up in one place, where their kind is checked", () => {
-  for (const [name, text] of TEXTS) if (name !== "dom.js") assert.ok(!text.includes("getElementById"), name);
+  for (const [name, text] of TEXTS) if (name !== "basics/dom.js") assert.ok(!text.includes("getElementById"), name);
 });

@@ -3,9 +3,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { changesLine, described, isChange } from "../../annotate/static/operations.js";
-import { isAccept, senseless } from "../../annotate/static/senseless.js";
-import { counted, spoken } from "../../annotate/static/words.js";
+import { changesLine, described, isChange } from "../../annotate/static/basics/operations.js";
+import { isAccept, senseless } from "../../annotate/static/server/senseless.js";
+import { counted, spoken } from "../../annotate/static/basics/words.js";
 
 const EVERY = {
   anchor: [{ column: 3, row: 4 }, "the anchor at column 3, row 4"],

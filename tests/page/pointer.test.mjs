@@ -4,9 +4,9 @@ import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
 import { Asked, Labelled, photo } from "./stubs.mjs";
-import { Pointer } from "../../annotate/static/pointer.js";
-import { Selection } from "../../annotate/static/selection.js";
-import { View } from "../../annotate/static/view.js";
+import { Pointer } from "../../annotate/static/gestures/pointer.js";
+import { Selection } from "../../annotate/static/labelled/selection.js";
+import { View } from "../../annotate/static/labelled/view.js";
 
 /** A canvas at the corner of the window. */
 class Canvas extends EventTarget {
@@ -36,7 +36,12 @@ beforeEach(() => {
   done = [];
   pointer = new Pointer({
     canvas, view, labelling, previewer, selection: new Selection(),
-    anchor: (...how) => done.push(["anchor", ...how]), goTo: (column) => done.push(["goTo", column]),
+    brush: { radius: 12 },
+    line: {
+      did: (operation) => labelling.apply(operation), anchor: (...how) => done.push(["anchor", ...how]), goTo: (column) => done.push(["goTo", column]),
+      guide: (rough) => done.push(["guide", rough]), corner: (pixel) => done.push(["corner", pixel]), explain: (pixel) => done.push(["explain", pixel]),
+      showGuide: (pixel) => done.push(["show", pixel]),
+    },
   });
 });
 
@@ -58,12 +63,12 @@ function drag(places, how = {}) {
 
 test("a click, also of a hand that trembles, is one", () => {
   drag([[100, 60], [102, 62]]);
-  assert.deepEqual(done, [["anchor", 102, 62, false]]);
+  assert.deepEqual(done, [["anchor", 102, 62, 4]]);
 });
 
 test("with the mouse over the photo, the line through its pixel is shown; over an anchor it is not", () => {
   tell("pointermove", 100, 60);
-  assert.deepEqual(previewer.asked, [[100, 60]]);
+  assert.deepEqual(previewer.asked, [[100, 60, 4]]);
   tell("pointermove", 51, 101);
   assert.equal(previewer.cleared, 1);
   labelling.waiting = 1; // the line is another one soon
@@ -73,12 +78,48 @@ test("with the mouse over the photo, the line through its pixel is shown; over a
   assert.equal(previewer.cleared, 2);
 });
 
+test("a press that goes on is a stroke along a ridge, from where it began; with Alt it moves the photo", () => {
+  drag([[100, 60], [106, 60], [140, 70], [180, 75]]);
+  const [[name, { points, radius }]] = done;
+  assert.deepEqual([name, points, radius], ["guide", [[100, 60], [140, 70], [180, 75]], 6]);
+  assert.equal(previewer.followed.length, 2);
+  view.zoom(4);
+  const { left } = view;
+  drag([[200, 100], [210, 100], [215, 100]], { altKey: true });
+  assert.equal(view.left, left + 15);
+  assert.equal(done.length, 1);
+});
+
+test("a finger aims within a fingertip, and draws beyond it", () => {
+  drag([[100, 60], [130, 80]], finger(1));
+  assert.deepEqual(done.shift(), ["anchor", 130, 80, 8]);
+  drag([[100, 60], [130, 80], [170, 80]], finger(1));
+  assert.deepEqual(done.map(([name]) => name), ["guide"]);
+});
+
+test("corners of a guide are clicked, and shown on the way to the next", () => {
+  pointer.use("guide");
+  drag([[100, 60]]);
+  assert.deepEqual(done, [["corner", [100, 60]]]);
+  drag([[100, 60], [150, 60]]); // a drag is a whole one
+  assert.equal(done.at(-1)[0], "guide");
+});
+
+test("a stroke that is broken off is not shown any more", () => {
+  tell("pointerdown", 100, 60);
+  tell("pointermove", 150, 60);
+  const { cleared } = previewer;
+  tell("pointercancel", 150, 60);
+  assert.ok(previewer.cleared > cleared);
+  assert.deepEqual(done, []);
+});
+
 test("an anchor is hit within ten pixels by the mouse and 24 by a finger", () => {
   drag([[59, 100], [80, 110]]);
   drag([[73, 100], [80, 110]], finger(1));
   drag([[73, 100]]);
-  assert.deepEqual(labelling.applied, [50, 50].map((from) => ({ kind: "move", from_column: from, column: 80, row: 110 })));
-  assert.deepEqual(done, [["anchor", 73, 100, false]]);
+  assert.deepEqual(labelling.applied, [4, 8].map((within) => ({ kind: "move", from_column: 50, column: 80, row: 110, within })));
+  assert.deepEqual(done, [["anchor", 73, 100, 4]]);
 });
 
 test("a right click removes an anchor, and moves the photo elsewhere", () => {

@@ -5,8 +5,8 @@ import { beforeEach, test } from "node:test";
 
 import { answer } from "./model.mjs";
 import { Labelled, photo, soon } from "./stubs.mjs";
-import { me } from "../../annotate/static/api.js";
-import { Previewer } from "../../annotate/static/previewer.js";
+import { me } from "../../annotate/static/server/api.js";
+import { Previewer } from "../../annotate/static/labelled/previewer.js";
 
 let labelling;
 let previewer;
@@ -35,12 +35,12 @@ const PART = { first: 3, rows: [1, 2, 3] };
 test("a preview is shown, and known until the line changes", async () => {
   previewer.ask(5, 6);
   await reply(0, PART);
-  assert.deepEqual(asked[0].body, { column: 5, row: 6, lifted: null });
+  assert.deepEqual(asked[0].body, { column: 5, row: 6, within: 0, lifted: null });
   assert.deepEqual(shown, [PART]);
-  assert.deepEqual(previewer.known(5, 6), PART);
-  assert.equal(previewer.known(5, 7), null);
+  assert.deepEqual(previewer.known("preview", { column: 5, row: 6, within: 0, lifted: null }), PART);
+  assert.equal(previewer.known("preview", { column: 5, row: 7, within: 0, lifted: null }), null);
   labelling.show(photo({ revision: 4 }));
-  assert.equal(previewer.known(5, 6), null);
+  assert.equal(previewer.known("preview", { column: 5, row: 6, within: 0, lifted: null }), null);
   assert.deepEqual(shown, [PART, null]); // it was of the old line
 });
 
@@ -58,7 +58,7 @@ test("an answer that comes after it is not wanted any more shows nothing", async
   previewer.clear();
   await reply(0, PART);
   assert.deepEqual(shown, [null]);
-  assert.equal(previewer.known(5, 6), null);
+  assert.equal(previewer.known("preview", { column: 5, row: 6, within: 0, lifted: null }), null);
 });
 
 test("an answer about another line, or another photo, shows nothing", async () => {
@@ -84,7 +84,7 @@ test("the part of an anchor that is dragged is no part of a new one", async () =
   previewer.ask(5, 6, 2);
   await reply(0, PART);
   assert.deepEqual(shown, [PART]);
-  assert.equal(previewer.known(5, 6), null);
+  assert.equal(previewer.known("preview", { column: 5, row: 6, within: 0, lifted: null }), null);
 });
 
 test("a pixel through which no line can pass shows nothing, without a word; a fault is said", async () => {

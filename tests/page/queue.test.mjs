@@ -4,9 +4,9 @@ import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
 import { FAULTS, Store, answer, asked, never } from "./model.mjs";
-import { me } from "../../annotate/static/api.js";
-import { Queue, newId } from "../../annotate/static/queue.js";
-import { trouble } from "../../annotate/static/words.js";
+import { me } from "../../annotate/static/server/api.js";
+import { Queue, newId } from "../../annotate/static/server/queue.js";
+import { trouble } from "../../annotate/static/basics/words.js";
 
 const soon = { pause: () => new Promise((done) => setImmediate(done)), patience: [20] };
 

@@ -5,9 +5,9 @@ import { AsyncLocalStorage } from "node:async_hooks";
 import { test } from "node:test";
 
 import { FAULTS, Store, answer, asked, chance, never } from "./model.mjs";
-import { me } from "../../annotate/static/api.js";
-import { Queue } from "../../annotate/static/queue.js";
-import { Shelf } from "../../annotate/static/shelf.js";
+import { me } from "../../annotate/static/server/api.js";
+import { Queue } from "../../annotate/static/server/queue.js";
+import { Shelf } from "../../annotate/static/server/shelf.js";
 
 const SCHEDULES = Number(process.env.SCHEDULES ?? 200);
 const CLICKS = 30;

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { Selection } from "../../annotate/static/selection.js";
+import { Selection } from "../../annotate/static/labelled/selection.js";
 
 const SHOWN = { width: 100, height: 50, rows: Array.from({ length: 100 }, (_, at) => 10 + Math.floor(at / 10)) };
 
@@ -55,7 +55,7 @@ test("a stroke grows by pixels that are new, or is stretched from its first one"
   const { selection } = watched();
   selection.begin("forbid", [1, 1], { radius: 3 });
   for (const pixel of [[1, 1], [2, 1], [2, 1], [3, 2]]) selection.extend(pixel);
-  assert.deepEqual(selection.now.stroke, { kind: "forbid", points: [[1, 1], [2, 1], [3, 2]], radius: 3, allow: false });
+  assert.deepEqual(selection.now.stroke, { kind: "forbid", points: [[1, 1], [2, 1], [3, 2]], radius: 3, allow: false, times: [] });
   selection.begin("straight", [1, 1]);
   selection.stretch([5, 5]);
   selection.stretch([9, 2]);

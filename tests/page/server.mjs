@@ -2,9 +2,9 @@
 
 import { answer } from "./model.mjs";
 import { photo } from "./stubs.mjs";
-import { me } from "../../annotate/static/api.js";
+import { me } from "../../annotate/static/server/api.js";
 
-const LEGEND = { statuses: ["to do"], tags: [], stages: [], formats: [], colours: {}, tile: 512, band: 40 };
+const LEGEND = { statuses: ["to do"], tags: [], hidden_by: [], stages: {}, formats: [], colours: {}, tile: 512, band: 40 };
 
 /** A photo as the list has it. */
 export const listed = (id, how = {}) =>

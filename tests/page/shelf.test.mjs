@@ -4,8 +4,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import "./model.mjs";
-import { signIn, me } from "../../annotate/static/api.js";
-import { Shelf } from "../../annotate/static/shelf.js";
+import { signIn, me } from "../../annotate/static/server/api.js";
+import { Shelf } from "../../annotate/static/server/shelf.js";
 
 /** A storage as browsers have it; `room` limits its characters. */
 function storage(room = Infinity) {

@@ -1,12 +1,12 @@
 /** Stand-ins for the parts of the page that a test leaves out. */
 
-import { Events } from "../../annotate/static/events.js";
+import { Events } from "../../annotate/static/basics/events.js";
 
 /** A photo with a level line. */
 export function photo(how = {}) {
   return {
     id: 1, name: "hill.png", width: 400, height: 240, revision: 3, status: "to do", tags: [], blind: false,
-    rows: Array(400).fill(100), hidden: [], anchors: [], spans: [], forbidden: [], can_undo: false, can_redo: false,
+    rows: Array(400).fill(100), hidden: [], anchors: [], spans: [], forbidden: [], guides: [], sides: [], can_undo: false, can_redo: false,
     undo_what: null, kept: null, origins: {}, doubtful: null, doubt: "", ...how,
   };
 }
@@ -29,6 +29,10 @@ export class Labelled extends Events {
     return Promise.resolve(this.document);
   }
 
+  reasons(_, tags) {
+    return tags.map((words) => ({ words, run: () => this.said.push(words) }));
+  }
+
   say(text) {
     this.said.push(text);
   }
@@ -43,11 +47,16 @@ export class Labelled extends Events {
 /** Previews that are asked for, and never answered. */
 export class Asked {
   asked = [];
+  followed = [];
   cleared = 0;
   part = null;
 
   ask(...pixel) {
     this.asked.push(pixel);
+  }
+
+  follow(rough) {
+    this.followed.push(rough);
   }
 
   clear() {

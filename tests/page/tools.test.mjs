@@ -4,9 +4,9 @@ import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
 import { Asked } from "./stubs.mjs";
-import { Selection } from "../../annotate/static/selection.js";
-import { brushRadius } from "../../annotate/static/strokes.js";
-import { DragTool, PanTool, TOOLS, makeTools } from "../../annotate/static/tools.js";
+import { Selection } from "../../annotate/static/labelled/selection.js";
+import { brushRadius, snapping } from "../../annotate/static/gestures/strokes.js";
+import { DragTool, PanTool, TOOLS, makeTools } from "../../annotate/static/gestures/tools.js";
 
 let bench;
 let done; // what came of it
@@ -18,13 +18,17 @@ beforeEach(() => {
     view: { scale: 2, pan: (...by) => done.push(["pan", ...by]) },
     previewer: new Asked(),
     apply: (operation) => done.push(operation),
+    brush: { radius: 12 },
+    guide: (rough) => done.push(["guide", rough.points]),
+    corner: (pixel) => done.push(["corner", pixel]),
+    explain: (pixel) => done.push(["explain", pixel]),
     anchor: (...how) => done.push(["anchor", ...how]),
     goTo: (column) => done.push(["goTo", column]),
   };
 });
 
 const at = (column, row, how = {}) =>
-  ({ at: [2 * column, 2 * row], pixel: [column, row], by: [6, 2], moved: true, finger: false, shift: false, alt: false, ...how });
+  ({ at: [2 * column, 2 * row], pixel: [column, row], by: [6, 2], moved: true, far: false, time: 0, finger: false, shift: false, alt: false, ...how });
 
 /** Press at the first contact, move through the others, and let go at the last. */
 function use(tool, ...contacts) {
@@ -38,16 +42,29 @@ test("every button has a tool, and every tool another key", () => {
   assert.equal(new Set(TOOLS.map(({ key }) => key)).size, TOOLS.length);
 });
 
-test("a click sets an anchor, with Shift one that leaves the old line around", () => {
+test("a click sets an anchor on the edge beside it, with Shift just there", () => {
   const { anchor } = makeTools(bench);
   use(anchor, at(5, 6, { moved: false }));
   use(anchor, at(7, 8, { moved: false, shift: true }));
-  assert.deepEqual(done, [["anchor", 5, 6, false], ["anchor", 7, 8, true]]);
+  assert.deepEqual(done, [["anchor", 5, 6, 2], ["anchor", 7, 8, 0]]);
 });
 
-test("the mouse moves the photo with the anchor tool, and sets nothing then", () => {
-  use(makeTools(bench).anchor, at(5, 6, { moved: false }), at(6, 6, { moved: false }), at(9, 6));
+test("a drag along a ridge is a guide, which is shown on the way", () => {
+  use(makeTools(bench).anchor, at(5, 6, { moved: false }), at(6, 6, { moved: false }), at(9, 6, { far: true }), at(12, 7, { far: true }));
+  assert.deepEqual(done, [["guide", [[5, 6], [9, 6], [12, 7]]]]);
+  assert.deepEqual(bench.previewer.followed.map(({ points, radius }) => [points.length, radius]), [[2, 3], [3, 3]]);
+});
+
+test("with Alt the mouse moves the photo with the anchor tool, and sets nothing then", () => {
+  use(makeTools(bench).anchor, at(5, 6, { moved: false, alt: true }), at(9, 6, { far: true, alt: true }));
   assert.deepEqual(done, [["pan", 6, 2]]);
+});
+
+test("corners of a guide are clicked, and a pixel is explained", () => {
+  const { guide, explain } = makeTools(bench);
+  use(guide, at(5, 6, { moved: false }));
+  use(explain, at(7, 8, { moved: false }));
+  assert.deepEqual(done, [["corner", [5, 6]], ["explain", [7, 8]]]);
 });
 
 test("a finger aims before it sets an anchor, and is magnified", () => {
@@ -56,9 +73,9 @@ test("a finger aims before it sets an anchor, and is magnified", () => {
   assert.deepEqual(bench.selection.now.finger, [10, 12]);
   anchor.move(at(9, 3, { finger: true }));
   assert.deepEqual(bench.selection.now.cursor, { column: 9, row: 3 });
-  assert.deepEqual(bench.previewer.asked, [[5, 6, null], [9, 3, null]]);
+  assert.deepEqual(bench.previewer.asked, [[5, 6, 4, null], [9, 3, 4, null]]);
   anchor.end(at(9, 3, { finger: true }));
-  assert.deepEqual(done, [["anchor", 9, 3, false]]);
+  assert.deepEqual(done, [["anchor", 9, 3, 4]]);
 });
 
 test("an anchor that is dragged is moved, and shown where it goes", () => {
@@ -66,9 +83,9 @@ test("an anchor that is dragged is moved, and shown where it goes", () => {
   drag.start(at(5, 6, { moved: false }));
   drag.move(at(8, 9));
   assert.equal(bench.selection.now.dragged, 5);
-  assert.deepEqual(bench.previewer.asked, [[8, 9, 5]]);
+  assert.deepEqual(bench.previewer.asked, [[8, 9, 2, 5]]);
   drag.end(at(8, 9));
-  assert.deepEqual(done, [{ kind: "move", from_column: 5, column: 8, row: 9 }]);
+  assert.deepEqual(done, [{ kind: "move", from_column: 5, column: 8, row: 9, within: 2 }]);
 });
 
 test("an anchor that is clicked takes the cursor", () => {
@@ -92,8 +109,8 @@ test("a long stroke is sent with fewer points", () => {
 });
 
 test("the brush has a width at every zoom that the server takes", () => {
-  assert.deepEqual([32, 2, 0.5, 1e-6].map((scale) => brushRadius(scale)), [1, 6, 24, 1000]);
-  assert.equal(brushRadius(32, 2), 2);
+  assert.deepEqual([32, 2, 0.5, 1e-6].map((scale) => brushRadius(12, scale)), [1, 6, 24, 1000]);
+  assert.equal(brushRadius(12, 32, 2), 2);
 });
 
 test("a line that is drawn is sent a row a column; a click draws none", () => {
@@ -102,6 +119,21 @@ test("a line that is drawn is sent a row a column; a click draws none", () => {
   assert.deepEqual(done, [{ kind: "drawn", first: 4, rows: [10, 11, 12] }]);
   use(drawn, at(4, 10));
   assert.equal(done.length, 1);
+});
+
+test("all above a stroke is sky, with Alt all below it is terrain; a click says nothing", () => {
+  const { side } = makeTools(bench);
+  use(side, at(4, 10), at(9, 12));
+  use(side, at(4, 10, { alt: true }), at(9, 12));
+  use(side, at(4, 10));
+  assert.deepEqual(done, ["sky", "terrain"].map((ground) => ({ kind: "side", points: [[4, 10], [9, 12]], ground })));
+});
+
+test("a click means an edge within a few screen pixels, and of a finger within more", () => {
+  const hand = { finger: false, shift: false };
+  assert.deepEqual([0.25, 1, 32].map((scale) => snapping(scale, hand)), [16, 4, 1]);
+  assert.ok(snapping(1, { ...hand, finger: true }) > 4);
+  assert.equal(snapping(1, { ...hand, shift: true }), 0);
 });
 
 test("a straight piece goes from press to release, and needs two columns", () => {
@@ -122,8 +154,9 @@ test("columns are hidden in either direction, and shown again with Alt; one colu
 });
 
 test("a stroke that is dropped on the way comes to nothing", () => {
-  for (const tool of ["forbid", "straight", "drawn", "hidden"].map((id) => makeTools(bench)[id])) {
+  for (const tool of ["anchor", "forbid", "guide", "side", "straight", "drawn", "hidden"].map((id) => makeTools(bench)[id])) {
     tool.start(at(1, 1));
+    tool.move(at(4, 4, { far: true }));
     bench.selection.clear(); // Escape
     tool.move(at(5, 5));
     tool.end(at(5, 5));

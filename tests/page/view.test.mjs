@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { chance } from "./model.mjs";
-import { View } from "../../annotate/static/view.js";
+import { View } from "../../annotate/static/labelled/view.js";
 
 /** A view of 800 by 400 screen pixels on a photo. */
 function opened(width = 1600, height = 400) {

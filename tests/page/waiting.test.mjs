@@ -3,9 +3,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { changesLine } from "../../annotate/static/operations.js";
-import { sketched } from "../../annotate/static/waiting.js";
-import { trouble } from "../../annotate/static/words.js";
+import { changesLine } from "../../annotate/static/basics/operations.js";
+import { sketched } from "../../annotate/static/drawn/waiting.js";
+import { trouble } from "../../annotate/static/basics/words.js";
 
 const did = (kind, how = {}) => ({ what: "operations", operation: { kind, ...how } });
 const anchor = (column, row = 5) => did("anchor", { column, row });

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from annotate.engine.edits import Edits, paint
+from annotate.engine.edits import Edits
 from annotate.engine.live_wire import LiveWire
+from annotate.engine.steering import FORBIDDEN, paint
 from testing.labelling import DETECTOR, hills
 
 
@@ -39,7 +40,7 @@ def test_a_stroke_on_others_is_painted_as_all_of_them_afresh():
             history.append(history[-1].forbid(points, radius, allow=allow))
         wire.edits = history[-1]
         wire.refresh()
-        forbidden = paint(history[-1].strokes, *photo.shape[:2])
+        forbidden = paint(history[-1].strokes, *photo.shape[:2]) == FORBIDDEN
         np.testing.assert_array_equal(
             wire._tables.allowed, np.where(forbidden, np.float32(np.inf), wire._tables._cost)
         )

@@ -22,6 +22,29 @@ def test_a_preview_is_what_the_anchor_makes_of_the_line_and_changes_nothing(clie
     assert after["revision"] > before["revision"]
 
 
+def test_a_click_that_snaps_is_previewed_and_kept_as_one_operation(client):
+    before = client.get("/api/photos/3").json()
+    aim = {"column": 30, "row": before["rows"][30] + 14, "within": 3}
+    part = client.post("/api/photos/3/preview", json=aim).json()
+    rows = before["rows"][:]
+    rows[part["first"] : part["first"] + len(part["rows"])] = part["rows"]
+    after = operate(client, 3, kind="anchor", **aim)
+    assert after["rows"] == rows
+    assert after["anchors"] == [[30, rows[30]]]
+    assert abs(rows[30] - aim["row"]) <= 3
+    assert after["forbidden"] == []
+    assert client.post("/api/photos/3/undo", json=asked()).json()["rows"] == before["rows"]
+
+
+def test_all_above_a_stroke_is_sky(client):
+    before = client.get("/api/photos/3").json()["rows"]
+    after = operate(client, 3, kind="side", points=[[0, 30], [69, 30]], ground="sky")
+    assert min(after["rows"]) >= 30
+    assert after["sides"] == [{"first": 0, "rows": [30] * 70, "ground": "sky"}]
+    assert after["undo_what"] == "all above is sky"
+    assert client.post("/api/photos/3/undo", json=asked()).json()["rows"] == before
+
+
 def test_margins_are_those_of_the_line_as_it_is(client):
     shown = operate(client, 2, kind="anchor", column=30, row=20)
     margins = client.get("/api/photos/2/margins").json()

@@ -6,7 +6,8 @@ import pytest
 from pydantic import ValidationError
 
 from annotate.engine.edits import Edits
-from annotate.store.operations import LOGGED, MoveAnchor, SetAnchor, spoken
+from annotate.engine.steering import Left
+from annotate.store.operations import LOGGED, MoveAnchor, SetAnchor, Side, spoken
 
 EDITS = Edits(30, 40).anchor(5, 6)
 DONE = {
@@ -17,6 +18,10 @@ DONE = {
     "guide": (
         {"points": [[1, 2], [30, 4]], "radius": 3, "times": [0, 900]},
         EDITS.guide([(1, 2), (30, 4)], 3, [0, 900]),
+    ),
+    "side": (
+        {"points": [[1, 2], [30, 4]], "ground": "sky"},
+        EDITS.side([(1, 2), (30, 4)], "sky"),
     ),
     "straight": (
         {"column": 1, "row": 2, "to_column": 9, "to_row": 8},
@@ -52,6 +57,8 @@ def test_each_does_what_it_says(kind):
         {"kind": "guide", "points": [], "radius": 2},
         {"kind": "guide", "points": [[1, 2]], "radius": 0},
         {"kind": "guide", "points": [[1, 2]], "times": [-1]},
+        {"kind": "side", "points": [[1, 2]], "ground": "water"},
+        {"kind": "anchor", "column": 3, "row": 4, "within": -1},
         {"kind": "drawn", "first": 0, "rows": []},
         {"kind": "tag", "tag": ""},
         {"kind": "tag", "tag": "a\nb"},
@@ -65,6 +72,19 @@ def test_each_does_what_it_says(kind):
 def test_what_has_another_form_is_refused(body):
     with pytest.raises(ValidationError):
         LOGGED.validate_json(json.dumps(body))
+
+
+def test_a_click_does_what_it_came_to():
+    left = {"points": [[1, 9], [8, 9]], "radius": 2}
+    body = {"kind": "anchor", "column": 3, "row": 4, "within": 2}
+    found = LOGGED.validate_json(json.dumps({**body, "found": {"row": 5, "left": left}}))
+    assert found.on(EDITS) == EDITS.anchor(3, 5, Left(((1, 9), (8, 9)), 2, 3))
+    assert LOGGED.validate_json(json.dumps(body)).on(EDITS) == EDITS.anchor(3, 4)
+
+
+def test_sides_are_told_apart():
+    sides = [Side(points=[(1, 2)], ground=ground) for ground in ("sky", "terrain")]
+    assert [spoken(one) for one in sides] == ["all above is sky", "all below is terrain"]
 
 
 def test_operations_are_values():

@@ -9,6 +9,7 @@ from annotate.work.images import (
     BAND,
     TILE,
     has_tile,
+    overview,
     strip,
     thumbnail,
     thumbnail_of_file,
@@ -69,11 +70,23 @@ def test_in_a_strip_the_line_is_level():
     line = Skyline(rows)
     photo = np.where(line.to_mask(48)[..., None], np.uint8(220), np.uint8(30)).repeat(3, axis=2)
     picture = opened(strip(photo, line, 70))
-    assert picture.shape == (2 * BAND + 1, 70, 3)
-    assert (picture[BAND - 5 : BAND] == 220).all()
-    assert (picture[BAND : BAND + 5] == 30).all()
-    assert (picture[0] == 0).all()  # beyond the photo
+    assert picture.shape == (2 * BAND + 1, 70, 4)  # transparent beside the photo
+    assert (picture[BAND - 5 : BAND, :, :3] == 220).all()
+    assert (picture[BAND : BAND + 5, :, :3] == 30).all()
+    assert (picture[0, :, 3] == 0).all()
     assert opened(strip(photo, line, 35)).shape[1] == 35
+
+
+def test_an_overview_shows_a_small_photo_with_its_line():
+    photo = np.full((600, 900, 3), 200, np.uint8)
+    rows = np.full(900, 300)
+    picture = opened(overview(photo, Skyline(rows)))
+    assert picture.shape == (160, 240, 3)
+    drawn = np.abs(picture.astype(int) - 200).max(axis=2) > 40
+    assert drawn[78:83].any(axis=0).all()
+    assert not drawn[:70].any()
+    half = opened(overview(photo, Skyline(rows=rows, visible=np.arange(900) < 450)))
+    assert not (np.abs(half[:, 135:].astype(int) - 200) > 40).any()
 
 
 def test_a_jpeg_is_decoded_small_and_its_thumbnail_shows_the_same(tmp_path):

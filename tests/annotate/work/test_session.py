@@ -5,7 +5,7 @@ import pytest
 
 from annotate.engine.edits import EditError
 from annotate.store.database import StoreError
-from annotate.store.operations import Hide, Open, SetAnchor, SetStatus, SetTag
+from annotate.store.operations import Hide, MoveAnchor, Open, SetAnchor, SetStatus, SetTag
 from annotate.store.store import StaleError
 from testing.labelling import workbench, write_hills
 
@@ -53,6 +53,25 @@ def test_line_and_log_agree_after_every_step(bench, session):
     assert session.wire.skyline.rows[9] == 5
     assert not session.wire.skyline.visible[60:66].any()
     assert session.state.status == "in progress"
+
+
+def test_a_click_is_kept_with_what_it_came_to(bench, session):
+    row = int(session.wire.skyline.rows[35])
+    click = SetAnchor(column=35, row=row + 14, within=3)
+    first = session.apply(click, -1, "a-click")
+    line = session.wire.skyline
+    assert abs(int(line.rows[35]) - click.row) <= 3
+    agree(bench, session)
+    assert session.apply(click, -1, "a-click") == first  # it comes again: the line is another now
+    with pytest.raises(StaleError, match="belongs to another one"):
+        session.apply(SetAnchor(column=35, row=row, within=3), -1, "a-click")
+    session.apply(MoveAnchor(from_column=35, column=37, row=click.row, within=3), -1)
+    agree(bench, session)
+    session.undo(-1)
+    assert session.wire.skyline == line
+    bench.close_photo(1)
+    assert bench.session(1).wire.skyline == line  # from the log alone
+    assert bench.session(1).wire.edits == session.wire.edits
 
 
 def test_it_goes_on_where_the_log_ends(bench, session):

@@ -50,7 +50,7 @@ def test_a_method_that_refuses_small_photos_lets_the_page_begin(folder):
             return DETECTOR.detect(photo)
 
     bench = workbench(folder, detector=Large())
-    assert bench.overlays() == ("edges", "score", "cost")
+    assert tuple(bench.overlays()) == ("edges", "score", "cost")
     bench.close()
 
 

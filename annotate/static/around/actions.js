@@ -1,0 +1,293 @@
+/** What is done to a photo as a whole: its status, its tags, undo. */
+
+import { Events } from "../basics/events.js";
+import { isChange } from "../basics/operations.js";
+import { showTags } from "./dialogs.js";
+
+/** @import { Labelling } from "../labelled/labelling.js" */
+/** @import { Item } from "../server/queue.js" */
+/** @import { Sheet } from "./sheet.js" */
+/** @import { Document, ShownPhoto, Status } from "../types.js" */
+
+/** @typedef {{id: number, name: string, status: Status, revision: number}} Done - A status that a photo was given. */
+
+/**
+ * Everything here is done to the photo that `target` names, which is one that is seen.
+ * Event: `change`, when something else would be undone.
+ *
+ * @extends {Events<{change: undefined}>}
+ */
+export class Actions extends Events {
+  #labelling;
+  #sheet;
+  /**
+   * What Undo takes back although its photo has been left, newest last. The revision is that of the status
+   * itself, so that nothing that was done since is taken back for it.
+   *
+   * @type {Done[]}
+   */
+  #trail = [];
+  /** @type {Done | null} */
+  #latest = null; // what was said last, and the button beside the words takes back
+
+  /**
+   * @param {Labelling} labelling
+   * @param {Sheet} sheet
+   */
+  constructor(labelling, sheet) {
+    super();
+    this.#labelling = labelling;
+    this.#sheet = sheet;
+    labelling.on("document", ({ fresh }) => {
+      if (fresh) this.#follow([]);
+    });
+    labelling.on("did", () => {
+      if (!sheet.shown) this.#follow([]); // something has been done since
+    });
+    sheet.on("page", () => this.#follow([]));
+    labelling.on("status", (change) => this.#tellStatus(change));
+    labelling.queue.on("kept", ({ item, document }) => this.#keepUp(item, document));
+  }
+
+  /**
+   * The photo that is worked on: that of the sheet's card, or the one that is shown; null while there is none.
+   *
+   * @returns {Document | ShownPhoto | null}
+   */
+  target() {
+    if (this.#sheet.shown) return this.#sheet.card;
+    const { document, loading } = this.#labelling;
+    return loading ? null : document;
+  }
+
+  /** What Undo would take back, in words; empty where there is nothing. */
+  get undoes() {
+    const last = this.#trail.at(-1);
+    if (last) return `${last.name} ${last.status}`;
+    const photo = this.#shown();
+    if (!photo) return "";
+    const waiting = this.#labelling.queue.of(photo.id).filter((item) => item.operation && isChange(item)).at(-1);
+    if (waiting) return waiting.says;
+    return photo.can_undo ? photo.undo_what ?? "the last edit" : "";
+  }
+
+  /** Whether Redo does something. */
+  get redoes() {
+    const photo = this.#shown();
+    return Boolean(photo?.can_redo || (photo && this.#labelling.queue.of(photo.id).at(-1)?.what === "undo"));
+  }
+
+  /**
+   * Give the photo a status, and go on to the next one.
+   *
+   * @param {Status} status
+   */
+  finish(status) {
+    return this.#set(status, true);
+  }
+
+  /**
+   * Give the photo a status, and stay.
+   *
+   * @param {Status} status
+   */
+  setStatus(status) {
+    return this.#set(status, false);
+  }
+
+  /** The photo that is shown; null where the sheet is, or another photo is on its way. */
+  #shown() {
+    return this.#sheet.shown || this.#labelling.loading ? null : this.#labelling.document;
+  }
+
+  /**
+   * @param {Status} status
+   * @param {boolean} goOn
+   */
+  async #set(status, goOn) {
+    const photo = this.target();
+    if (!photo || !this.#makesSense(photo, status)) return;
+    const leaves = goOn && !this.#sheet.shown;
+    if (goOn && !leaves) this.#sheet.step(1);
+    const already = photo.status === status && !this.#labelling.queue.of(photo.id).length;
+    if (already) await this.#goOn(leaves, photo, `${photo.name} is ${status} already.`);
+    else await this.#send(photo, status, leaves);
+  }
+
+  /**
+   * Whether a photo can be given a status; if not, why is said.
+   *
+   * @param {Document | ShownPhoto} photo
+   * @param {Status} status
+   */
+  #makesSense(photo, status) {
+    const waiting = this.#labelling.queue.of(photo.id);
+    const last = waiting.at(-1)?.operation;
+    if (last?.kind === "status" && last.status === status) return false; // pressed again while it is on its way
+    const empty = "rows" in photo && photo.rows === null && !waiting.length;
+    if (status !== "accepted" || !empty) return true;
+    this.#labelling.say(`${photo.name} has no line yet, so there is nothing to accept.`, true);
+    return false;
+  }
+
+  /**
+   * @param {Document | ShownPhoto} photo
+   * @param {Status} status
+   * @param {boolean} goOn
+   */
+  async #send(photo, status, goOn) {
+    const labelling = this.#labelling;
+    const done = { id: photo.id, name: photo.name, status, revision: -1 };
+    const sent = labelling.send(photo, { what: "operations", operation: { kind: "status", status }, says: `“${status}”` });
+    if (this.#sheet.shown) this.#follow([...this.#trail, done]);
+    const kept = await sent;
+    if (kept?.status !== status) return this.#forget([done]);
+    done.revision = kept.kept ?? kept.revision;
+    this.#latest = done;
+    if (labelling.queue.of(photo.id).some(isChange)) return; // it does not stay so: what is said is said of that
+    await this.#goOn(goOn, photo, `${photo.name} is ${status}.`, done);
+  }
+
+  /**
+   * Go on from a photo, if it is still the one that is seen, and say what became of it.
+   *
+   * @param {boolean} goOn
+   * @param {{id: number}} photo
+   * @param {string} said
+   * @param {Done | null} [done]
+   */
+  async #goOn(goOn, photo, said, done = null) {
+    const labelling = this.#labelling;
+    const seen = labelling.document?.id === photo.id && !labelling.loading && !this.#sheet.shown;
+    const more = goOn && seen ? await this.#openNext(done) : "";
+    if (more === null) return;
+    labelling.say(`${said}${more}`, false, done && (() => this.#takeBack(done)), this.#reasons(done));
+  }
+
+  /**
+   * Why a photo is rejected: tags to choose from.
+   *
+   * @param {Done | null} done
+   */
+  #reasons(done) {
+    return done?.status === "rejected" ? this.#labelling.reasons(done, this.#labelling.legend?.tags ?? []) : [];
+  }
+
+  /**
+   * What there is to say of the next photo; null where it could not be opened, which has been said.
+   *
+   * @param {Done | null} done - What was done to the last one.
+   */
+  async #openNext(done) {
+    const labelling = this.#labelling;
+    const next = labelling.following();
+    if (!next) return " No photo is to do any more.";
+    if (!await labelling.open(next.id)) return null;
+    if (done) this.#follow([done]);
+    return this.#doubts();
+  }
+
+  /** What a diagnosis, or else the detector, doubts of the photo that is open; nothing most often. */
+  #doubts() {
+    const { doubtful = null, doubt = "" } = this.#labelling.document ?? {};
+    if (doubtful !== null) return ` A diagnosis doubts the truth around column ${doubtful} of this one.`;
+    return doubt && ` The detector says of this one: ${doubt}`;
+  }
+
+  /** Take back the last thing that was done: here, or the status of the photo that was left just now. */
+  undo() {
+    const labelling = this.#labelling;
+    const last = this.#trail.at(-1);
+    const photo = this.#shown();
+    const says = this.undoes;
+    if (last) this.#takeBack(last);
+    else if (photo && says) labelling.send(photo, { what: "undo", says: `undoing ${says}` });
+    else labelling.say(this.#sheet.shown ? "Nothing was done on this page of the sheet that could be taken back." : "There is nothing to undo.");
+  }
+
+  /** Do again what was taken back. */
+  redo() {
+    const photo = this.#shown();
+    if (photo && this.redoes) this.#labelling.send(photo, { what: "redo", says: "redoing" });
+    else this.#labelling.say("There is nothing to redo.");
+  }
+
+  /** Tags of the photo. */
+  tags() {
+    const labelling = this.#labelling;
+    const photo = this.target();
+    if (photo) {
+      showTags(labelling, photo, (tag, on) =>
+        labelling.send(photo, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` }));
+    }
+  }
+
+  /**
+   * Take a status back, and go back to its photo.
+   *
+   * @param {Done} done
+   */
+  async #takeBack(done) {
+    this.#forget([done]);
+    const labelling = this.#labelling;
+    const kept = await labelling.send(done, { what: "undo", says: `taking back “${done.status}”` });
+    if (!kept) return;
+    if (this.#sheet.shown) this.#sheet.focus(done.id);
+    else if (labelling.document?.id !== done.id) await labelling.open(done.id);
+    labelling.say(`${done.name} is ${kept.status} again.`);
+  }
+
+  /**
+   * Something has been kept: what the trail holds of its photo is still the last thing done there, or is dropped.
+   *
+   * @param {Item} item
+   * @param {Document} document
+   */
+  #keepUp(item, document) {
+    const here = this.#trail.filter(({ id }) => id === item.photo);
+    const { operation, quiet } = item;
+    if (operation && isChange(item)) {
+      if (operation.kind !== "status") this.#forget(here);
+    } else if (!quiet) {
+      for (const one of [...here, ...this.#latestBehind(item)]) one.revision = document.kept ?? document.revision;
+    }
+  }
+
+  /**
+   * What was said last, where it is behind a tag on the same photo, which leaves it in place.
+   *
+   * @param {Item} item
+   */
+  #latestBehind({ operation, photo }) {
+    return operation && this.#latest?.id === photo ? [this.#latest] : [];
+  }
+
+  /** @param {Done[]} past - What cannot be taken back any more. */
+  #forget(past) {
+    if (past.length) this.#follow(this.#trail.filter((one) => !past.includes(one)));
+  }
+
+  /**
+   * Say what else an edit, or taking one back, did.
+   *
+   * @param {{before: Status | undefined, now: Document, item: Item}} change
+   */
+  #tellStatus({ before, now, item }) {
+    const seen = !this.#sheet.shown && this.target()?.id === now.id;
+    if (item.what !== "operations") {
+      if (seen) this.#labelling.say(`${now.name} is ${now.status} again.`);
+    } else if (before === "accepted" && item.operation?.kind !== "status") {
+      const said = `${now.name} is no longer accepted: it was changed.`;
+      if (!seen) return this.#labelling.say(said);
+      this.#labelling.say(`${said} Undo takes that back.`, false, () => {
+        if (this.target()?.id === now.id) this.undo();
+      });
+    }
+  }
+
+  /** @param {Done[]} trail */
+  #follow(trail) {
+    this.#trail = trail;
+    this.tell("change");
+  }
+}
