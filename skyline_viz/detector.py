@@ -20,6 +20,7 @@ from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
 from skyline_viz.frames.frame import Frame, around_frame
 from skyline_viz.frames.visibility import visibility
+from skyline_viz.kernels.planes import padded_planes
 from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
 from skyline_viz.sky_model import NETWORK, SkyModel
@@ -296,10 +297,12 @@ class Detector:
             tensor = Tensor(found.strength, found.coherence, found.orientation)
         else:
             with timed(seconds, "edges"):
-                edges, thresholds = candidate_edges(photo, config, frame, sky)
+                planes = padded_planes(photo)
+                edges, thresholds = candidate_edges(photo, config, frame, sky, planes)
                 rows, columns = edge_pixels(edges)
             with timed(seconds, "tensor"):
-                tensor = tensor_at(photo, rows, columns)
+                tensor = tensor_at(photo, rows, columns, planes)
+            del planes  # as large as the photo
             with timed(seconds, "bins"):
                 bins = bank.bins.of(tensor)
         if found and bank is found.bank:
