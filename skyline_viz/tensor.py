@@ -107,7 +107,7 @@ def tensor_at(photo: U8, rows: Int, columns: Int, planes: U8 | None = None) -> T
     order = None if (places[1:] >= places[:-1]).all() else np.argsort(places, kind="stable")
     if order is not None:
         rows, columns = rows[order], columns[order]
-    first = np.searchsorted(rows, np.arange(photo.shape[0] + 1))
+    first = np.searchsorted(rows, np.arange(photo.shape[0] + 1, dtype=np.int32))
     sums = np.empty((3, len(rows)), np.float32)
     planes = padded_planes(photo) if planes is None else planes
     window_sums(planes, columns, first, WINDOW, sums)

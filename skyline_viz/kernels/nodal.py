@@ -98,7 +98,7 @@ def nodal_costs(
     height, width = edges.shape
     costs = np.empty((width, height), np.float32)
     own = own or Own(np.zeros(0, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32))
-    first = np.searchsorted(own.rows, np.arange(height + 1))
+    first = np.searchsorted(own.rows, np.arange(height + 1, dtype=np.int32))
     clear = clear or Clear(np.float32(0), np.float32(0), 0)
     lines, least, cap = NOTHING, NOTHING[0], np.float32(0)
     if sky is not None:
