@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, Int
-from skyline_viz.kernels.eigen import doubled, strengths, to_degrees
+from skyline_viz.kernels.eigen import to_degrees, without_angle
 from skyline_viz.kernels.planes import padded_planes
 from skyline_viz.kernels.tensor_sums import window_sums
 
@@ -103,8 +103,7 @@ def tensor_at(photo: U8, rows: Int, columns: Int, planes: U8 | None = None) -> T
         >>> tensor.coherence, tensor.orientation
         (array([1.], dtype=float32), array([90.], dtype=float32))
     """
-    places = rows * np.int32(photo.shape[1]) + columns
-    order = None if (places[1:] >= places[:-1]).all() else np.argsort(places, kind="stable")
+    order = None if (rows[1:] >= rows[:-1]).all() else np.argsort(rows, kind="stable")
     if order is not None:
         rows, columns = rows[order], columns[order]
     first = np.searchsorted(rows, np.arange(photo.shape[0] + 1, dtype=np.int32))
@@ -128,8 +127,7 @@ def _eigen(txx: F32, txy: F32, tyy: F32) -> F32:
 
 def _eigen_part(txx: F32, txy: F32, tyy: F32, features: F32) -> None:
     """Write `_eigen` of a few tensors to `features`."""
-    strengths(txx, txy, tyy, features[0], features[1])
     sine, cosine = np.empty_like(txx), np.empty_like(txx)
-    doubled(txx, txy, tyy, sine, cosine)
+    without_angle(txx, txy, tyy, features[0], features[1], sine, cosine)
     np.arctan2(sine, cosine, out=features[2])
     to_degrees(features[2])

@@ -57,11 +57,17 @@ def canny(planes: U8, low: float, high: float) -> Bool:
     if height == 0 or width == 0:
         return np.zeros((height, width), np.bool_)
     floor, start = (int(min(max(math.floor(one), 0), STEEPEST)) for one in sorted((low, high)))
-    weak, strong = kept = np.empty((2, height, -(-width // 64)), np.uint64)
-    _keep(planes, np.int16(floor), np.int16(start), kept)
-    _follow(strong, weak)
-    edges = np.unpackbits(strong.view(np.uint8), axis=1, count=width, bitorder="little")
+    kept = np.empty((2, height, -(-width // 64)), np.uint64)
+    _mark(planes, np.int16(floor), np.int16(start), kept)
+    edges = np.unpackbits(kept[1].view(np.uint8), axis=1, count=width, bitorder="little")
     return edges.view(np.bool_)
+
+
+@numba.njit(cache=True, nogil=True)
+def _mark(planes: U8, low: int, high: int, kept: Words) -> None:
+    """Find edges, see `_keep` and `_follow`: one loop to load is faster than two."""
+    _keep(planes, low, high, kept)
+    _follow(kept[1], kept[0])
 
 
 @numba.njit(cache=True, nogil=True)

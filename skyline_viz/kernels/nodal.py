@@ -106,8 +106,8 @@ def nodal_costs(
             np.empty((sky.borders.shape[1], width), np.float32),
             np.empty(width, np.float32),
         )
-        _lines(np.ascontiguousarray(sky.borders.T), sky.left, sky.right, sky.sideways, lines)
-        _least(lines, height, least)
+        borders = np.ascontiguousarray(sky.borders.T)
+        _prepare(borders, sky.left, sky.right, sky.sideways, height, lines, least)
         cap = sky.cap
     flags = np.ascontiguousarray(edges).view(np.uint8)
     pays = own.columns, own.costs, np.float32(elsewhere), first
@@ -121,13 +121,23 @@ def nodal_costs(
 
 
 @numba.njit(cache=True, nogil=True)
+def _prepare(
+    borders: F32, left: Int, right: Int, sideways: F32, height: int, lines: F32, least: F32
+) -> None:
+    """Fill in what all rows need of a map, see `_lines` and `_least`."""
+    _lines(borders, left, right, sideways, lines)
+    _least(lines, height, least)
+
+
+@numba.njit(cache=True, nogil=True)
 def _lines(borders: F32, left: Int, right: Int, sideways: F32, lines: F32) -> None:
     """Interpolate what is paid at the borders of regions ``(h + 1, w)`` between their columns."""
     for border in range(len(borders)):
-        for column in range(lines.shape[1]):
-            here = borders[border, left[column]]
-            there = borders[border, right[column]]
-            lines[border, column] = here + sideways[column] * (there - here)
+        regions, line = borders[border], lines[border]
+        for column in range(np.uintp(len(line))):  # unsigned: none is counted from the end
+            here = regions[np.uintp(left[column])]
+            there = regions[np.uintp(right[column])]
+            line[column] = here + sideways[column] * (there - here)
 
 
 @numba.njit(cache=True, nogil=True)

@@ -23,7 +23,7 @@ def window_sums(planes: U8, columns: Int, first: Int, window: F32, sums: F32) ->
 
     Args:
         planes: ``(3, H + 6, W + 6)`` channels with a border.
-        columns: ``(n,)`` columns of the chosen pixels, row by row, in ascending order.
+        columns: ``(n,)`` columns of the chosen pixels, row by row.
         first: ``(H + 1,)`` place of each row's first pixel in `columns`.
         window: ``(6,)`` weights along an axis.
         sums: ``(3, n)`` is filled.
@@ -43,7 +43,7 @@ def window_sums(planes: U8, columns: Int, first: Int, window: F32, sums: F32) ->
             if held[row % TAPS] != row:
                 _products(planes, row, falling, rising, recent[row % TAPS])
                 held[row % TAPS] = row
-        left, right = columns[begin], columns[end - 1] + 1
+        left, right = _first_and_end(columns[begin:end])
         for product in range(3):
             some = slice(product * width + left, product * width + right + TAPS - 1)
             _downwards(
@@ -60,6 +60,16 @@ def window_sums(planes: U8, columns: Int, first: Int, window: F32, sums: F32) ->
             own = sums[product]
             for pixel in range(np.uintp(begin), np.uintp(end)):
                 own[pixel] = total[columns[pixel]]
+
+
+@numba.njit(cache=True, nogil=True)
+def _first_and_end(columns: Int) -> tuple[int, int]:
+    """The first of some columns, and the one after the last."""
+    left = right = columns[0]
+    for place in range(len(columns)):
+        left = min(left, columns[place])
+        right = max(right, columns[place])
+    return left, right + 1
 
 
 @numba.njit(cache=True, nogil=True)
