@@ -7,12 +7,14 @@ code. Of several processes that come to it at once, one compiles and the others 
 import contextlib
 import sys
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numba.core import event
+from numba.core.registry import cpu_target
+from numba.core.runtime import rtsys
 
 from skyline_viz.detector import Detector
 from skyline_viz.system.memory import loading
@@ -35,6 +37,7 @@ def warm_up() -> None:
     with (
         loading(),
         _without_blas(),
+        _without_compiler(),
         contextlib.ExitStack() as until_done,
         event.install_listener("numba:compile", _Compiling(until_done)),
     ):
@@ -50,6 +53,7 @@ class _Compiling(event.Listener):  # type: ignore[misc]  # numba has no types
 
     def on_start(self, event: Any) -> None:  # noqa: ANN401
         """Say so, and wait until no other process compiles; what it has done is found then."""
+        _restore_compiler()
         if self.begun:
             return
         self.begun = True
@@ -63,6 +67,26 @@ class _Compiling(event.Listener):  # type: ignore[misc]  # numba has no types
 
     def on_end(self, event: Any) -> None:  # noqa: ANN401
         """Nothing is to be done."""
+
+
+@contextlib.contextmanager
+def _without_compiler() -> Iterator[None]:
+    """Keep numba from loading what only its compiler needs, which takes as long as four detections.
+
+    It loads that whenever it looks for a kept loop, and again when it compiles one. A kept loop
+    needs no more of it than what hands out memory.
+    """
+    context = cpu_target.target_context
+    context.refresh = partial(rtsys.initialize, context)  # hides the method of its class
+    try:
+        yield
+    finally:
+        _restore_compiler()
+
+
+def _restore_compiler() -> None:
+    """Let numba load all of its compiler the next time that it wants to."""
+    vars(cpu_target.target_context).pop("refresh", None)
 
 
 @contextlib.contextmanager
