@@ -5,7 +5,6 @@ code. Of several processes that come to it at once, one compiles and the others 
 """
 
 import contextlib
-import sys
 from collections.abc import Iterator
 from functools import cache, partial
 from pathlib import Path
@@ -19,6 +18,7 @@ from numba.core.runtime import rtsys
 from skyline_viz.detector import Detector
 from skyline_viz.system.memory import loading
 from skyline_viz.system.notes import note
+from skyline_viz.system.stand_ins import without
 
 COMPILING = (
     "The detector's loops are compiled, which takes some seconds; later runs find them done."
@@ -27,6 +27,8 @@ COMPILING = (
 
 _LONGEST = 120.0  # seconds to wait for another process that compiles
 _BLAS = "scipy.linalg.cython_blas"
+"""Numba looks whether there is one, which takes five times as long as detecting. Our loops hold no
+matrix products."""
 
 
 @cache
@@ -36,7 +38,7 @@ def warm_up() -> None:
     photo[16:] = 50
     with (
         loading(),
-        _without_blas(),
+        without(_BLAS),
         _without_compiler(),
         contextlib.ExitStack() as until_done,
         event.install_listener("numba:compile", _Compiling(until_done)),
@@ -87,19 +89,3 @@ def _without_compiler() -> Iterator[None]:
 def _restore_compiler() -> None:
     """Let numba load all of its compiler the next time that it wants to."""
     vars(cpu_target.target_context).pop("refresh", None)
-
-
-@contextlib.contextmanager
-def _without_blas() -> Iterator[None]:
-    """Keep numba from importing scipy.linalg, which takes five times as long as detecting.
-
-    It looks whether there is one when it loads its first loop. Ours hold no matrix products.
-    """
-    if _BLAS in sys.modules:
-        yield
-        return
-    sys.modules[_BLAS] = None  # type: ignore[assignment]  # as Python marks what is not there
-    try:
-        yield
-    finally:
-        del sys.modules[_BLAS]
