@@ -74,7 +74,7 @@ def lighter(line: U8, other: U8, every: int, limit: int) -> float:
 def constant(
     lines: U8, every: int, limit: int, most_first: float, most: float
 ) -> tuple[I16, int, float]:
-    """Colour ``(3,)`` of the first of some lines, how many have it, and the share of others in them.
+    """Colour ``(3,)`` of the first of some lines, how many have it, and the share of others there.
 
     They end before the first line with more than a share of pixels of other colours.
 
@@ -99,9 +99,7 @@ def constant(
 
 
 @numba.njit(cache=True, nogil=True)
-def end(
-    last: U8, first: U8, every: int, step: int, colour: I16, limit: int
-) -> tuple[float, float]:
+def end(last: U8, first: U8, every: int, step: int, colour: I16, limit: int) -> tuple[float, float]:
     """Shares of pixels: in which the first line after some differs, and of others in their last."""
     return differ(last, first, every, step), away(last, every, colour, limit)
 
