@@ -1,8 +1,11 @@
 """``skyline-viz``: help, usage, bad input, and the program in a process of its own."""
 
 import os
+import re
 import subprocess
 import sys
+from contextlib import nullcontext
+from importlib import import_module
 
 import pytest
 
@@ -25,6 +28,15 @@ def test_every_command_explains_itself(say, command):
     status, out, _ = say(command, "--help")
     assert status == 0
     assert "--out" in out
+
+
+@pytest.mark.parametrize("program", ["skyline_viz.cli", "annotate.cli"])
+def test_defaults_are_of_their_types(program, monkeypatch, capsys):
+    monkeypatch.setattr("skyline_viz.command_line.program.without", lambda *_: nullcontext())
+    main_of = import_module(program).main
+    main_of(["--help"])  # tyro asks typeguard, and warns
+    for command in re.findall(r"^ +│? +([a-z]+) ", capsys.readouterr().out, re.MULTILINE):
+        assert main_of([command, "--help"]) == 0
 
 
 def test_the_version(say):
