@@ -1,11 +1,9 @@
 """``skyline-viz``: help, usage, bad input, and the program in a process of its own."""
 
 import os
-import re
 import subprocess
 import sys
 from contextlib import nullcontext
-from importlib import import_module
 
 import pytest
 
@@ -30,15 +28,6 @@ def test_every_command_explains_itself(say, command):
     assert "--out" in out
 
 
-@pytest.mark.parametrize("program", ["skyline_viz.cli", "annotate.cli"])
-def test_defaults_are_of_their_types(program, monkeypatch, capsys):
-    monkeypatch.setattr("skyline_viz.command_line.program.without", lambda *_: nullcontext())
-    main_of = import_module(program).main
-    main_of(["--help"])  # tyro asks typeguard, and warns
-    for command in re.findall(r"^ +│? +([a-z]+) ", capsys.readouterr().out, re.MULTILINE):
-        assert main_of([command, "--help"]) == 0
-
-
 def test_the_version(say):
     assert say("--version") == (0, f"skyline-viz {sv.__version__}\n", "")
 
@@ -54,6 +43,13 @@ COMMANDS = [
     "render",
     "demo",
 ]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_defaults_are_of_their_types(say, command, monkeypatch):
+    monkeypatch.setattr("skyline_viz.command_line.program.without", lambda *_: nullcontext())
+    assert say(command, "--help")[0] == 0  # tyro asks typeguard, and warns
+    assert "typeguard" in sys.modules
 
 
 def test_help_imports_nothing_heavy():
