@@ -19,7 +19,7 @@ from skyline_viz.skyline import Skyline
 from skyline_viz.stage import DETOUR, OURS, Quantity, Stage, of_term
 from skyline_viz.terms import Term
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.near import Near, Sampler
+from skyline_viz.viewer.near import Near, Sampler, let_go
 from skyline_viz.viewer.value_maps import BANDS, COARSE, FINE, dense_map, sparse_map
 
 _RLE = cv2.IMWRITE_PNG_STRATEGY_RLE
@@ -78,6 +78,8 @@ def log_maps(
             values = stage.values[kept] if stage.where == "edges" else stage.values[rows, columns]
             table[name] = values
             _log_stage(recording, entity, stage, values, (shape, rows, columns), exact=full)
+            if near:
+                let_go(recording)
     if full:
         recording.log(at(entities.EDGE_PIXELS), rr.AnyValues(True, **table))
         log_terms(recording, at, detection, near)
@@ -134,7 +136,7 @@ def log_terms(
             for some in (sampled.blocks, sampled.exact):
                 some[some == 0] = np.nan
             near.map(quantity, sampled, COARSE).log(recording, entity)
-            recording.flush()
+            let_go(recording)
             continue
         paid = term.map()
         paid[paid == 0] = np.nan
