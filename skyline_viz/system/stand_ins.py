@@ -18,10 +18,10 @@ def without(name: str, instead: ModuleType | None = None) -> Iterator[None]:
         name: The module.
         instead: What is found; unless given, Python says that there is none.
 
-    >>> with without("xml.dom.minidom"):
-    ...     import xml.dom.minidom
+    >>> with without("this"):
+    ...     import this
     Traceback (most recent call last):
-    ModuleNotFoundError: import of xml.dom.minidom halted; None in sys.modules
+    ModuleNotFoundError: import of this halted; None in sys.modules
     """
     if name in sys.modules:
         yield
