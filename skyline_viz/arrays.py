@@ -44,17 +44,27 @@ def in_colour(photo: U8, colour: tuple[int, int, int]) -> Bool:
 def in_colours(photo: U8, colours: Iterable[tuple[int, int, int]]) -> list[Bool]:
     """Where a photo ``(H, W, 3)`` is of each of some colours, ``(H, W)`` each.
 
-    The channels of a pixel make one number: they are compared several times as fast so.
+    The numbers of `in_numbers` are compared several times as fast as three channels are.
     """
-    import cv2  # noqa: PLC0415  # most who need arrays do not need it
-
-    pixels = cv2.cvtColor(np.ascontiguousarray(photo), cv2.COLOR_RGB2RGBA).view(np.uint32)[..., 0]
+    pixels = in_numbers(photo)
     return [
         pixels == np.array([*colour, 255], np.uint8).view(np.uint32)
         if max(colour) <= 255
         else np.zeros(pixels.shape, np.bool_)
         for colour in colours
     ]
+
+
+def in_numbers(photo: U8) -> npt.NDArray[np.uint32]:
+    """One number for each pixel of a photo ``(H, W, 3)``, the same for the same colour, ``(H, W)``.
+
+    >>> len(np.unique(in_numbers(np.array([[[9, 0, 0], [0, 9, 0], [9, 0, 0]]], np.uint8))))
+    2
+    """
+    import cv2  # noqa: PLC0415  # most who need arrays do not need it
+
+    opaque = cv2.cvtColor(np.ascontiguousarray(photo), cv2.COLOR_RGB2RGBA)
+    return np.asarray(opaque.view(np.uint32)[..., 0])
 
 
 def column_counts(mask: Bool) -> Int:
@@ -67,6 +77,21 @@ def column_counts(mask: Bool) -> Int:
 
     counts: Int = cv2.reduce(mask.view(np.uint8), 0, cv2.REDUCE_SUM, dtype=cv2.CV_32S)[0]
     return counts
+
+
+def column_ends(mask: Bool) -> tuple[Int, Int]:
+    """First and last row of each column of a mask ``(H, W)`` that is True, ``(W,)`` each; or 0.
+
+    Of a thin line this takes a tenth of the time of walking down the columns.
+
+    >>> [rows.tolist() for rows in column_ends(np.array([[0, 0], [1, 0], [1, 0]], bool))]
+    [[1, 0], [2, 0]]
+    """
+    width = mask.shape[1]
+    first, last = np.zeros(width, np.int32), np.zeros(width, np.int32)
+    rows, columns = np.divmod(np.flatnonzero(mask), width)
+    last[columns], first[columns[::-1]] = rows, rows[::-1]  # what is written last stays
+    return first, last
 
 
 def read_only(array: npt.NDArray[np.generic]) -> None:

@@ -82,13 +82,18 @@ class Bins:
             >>> Bins().of(edge)  # the last coherence and strength, the orientation in the middle
             array([280], dtype=int32)
         """
-        coherence = _level(tensor.coherence / self.coherence_top, self.coherences)
-        above = (tensor.strength - self.strength_offset) / self.strength_range
-        strength = _level(above, self.strengths)
-        turn = tensor.orientation * (self.orientations / 180.0) + 0.5
+        index = _level(tensor.coherence / self.coherence_top, self.coherences)
+        index *= self.strengths
+        above = tensor.strength - self.strength_offset
+        above /= self.strength_range
+        index += _level(above, self.strengths)
+        index *= self.orientations
+        turn = tensor.orientation * (self.orientations / 180.0)
+        turn += 0.5
         orientation = turn.astype(np.int32)
         orientation *= orientation < self.orientations  # 180 degrees are 0
-        return (coherence * self.strengths + strength) * self.orientations + orientation
+        index += orientation
+        return index
 
     def label(self, index: int) -> str:
         """What a bin stands for, in words.
@@ -162,10 +167,12 @@ class Bins:
 
 
 def _level(value: npt.NDArray[np.float32], levels: int) -> Int:
-    """Quantise [0, 1] into `levels` levels, of which the last one begins at 1."""
+    """Quantise [0, 1], in place, into `levels` levels, of which the last one begins at 1."""
     if levels == 1:
         return np.zeros(value.shape, np.int32)
-    return (np.clip(value, 0.0, 1.0) * (levels - 1)).astype(np.int32)
+    np.clip(value, 0.0, 1.0, out=value)
+    value *= levels - 1
+    return value.astype(np.int32)
 
 
 def _range(level: int, levels: int, offset: float, span: float) -> str:

@@ -314,4 +314,8 @@ def normalised(strength: F32, percentile: float) -> F32:
     if len(strength) == 0:
         return strength
     top = upper_percentile(strength, percentile)
-    return np.clip(strength, 0.0, top) / top if top > 0 else np.zeros_like(strength)
+    if top <= 0:
+        return np.zeros_like(strength)
+    share: F32 = np.clip(strength, 0.0, top)
+    share /= top
+    return share

@@ -21,12 +21,14 @@ from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
 from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.frames.frame import Frame, around_frame
 from skyline_viz.frames.visibility import visibility
+from skyline_viz.kernels.planes import padded_planes
 from skyline_viz.path import shortest_path
 from skyline_viz.score import score_at
 from skyline_viz.sky_model import NETWORK, SkyModel
 from skyline_viz.skyline import Skyline
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
+from skyline_viz.system.memory import expect_photos
 from skyline_viz.tensor import Tensor, tensor_at
 from skyline_viz.training import GramMatrices, gather_item, solve, train
 
@@ -281,6 +283,7 @@ class Detector:
 
     def _detect(self, photo: U8, found: FilterDetection | None = None) -> FilterDetection:
         """See `detect` and `again`."""
+        expect_photos()
         config, bank = self.config, self.bank
         seconds = dict.fromkeys(STAGES if config.sky_weight else STAGES[1:], 0.0)
         if found and found.config.frame == config.frame:
@@ -297,10 +300,12 @@ class Detector:
             tensor = Tensor(found.strength, found.coherence, found.orientation)
         else:
             with timed(seconds, "edges"):
-                edges, thresholds = candidate_edges(photo, config, frame, sky)
+                planes = padded_planes(photo)
+                edges, thresholds = candidate_edges(photo, config, frame, sky, planes)
                 rows, columns = edge_pixels(edges)
             with timed(seconds, "tensor"):
-                tensor = tensor_at(photo, rows, columns)
+                tensor = tensor_at(photo, rows, columns, planes)
+            del planes  # as large as the photo
             with timed(seconds, "bins"):
                 bins = bank.bins.of(tensor)
         if found and bank is found.bank:

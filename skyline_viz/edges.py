@@ -6,7 +6,6 @@ $$
 """
 
 import math
-from typing import TypeAlias
 
 import cv2
 import numba
@@ -19,8 +18,8 @@ from skyline_viz.frames.finding import find_frame
 from skyline_viz.frames.frame import Frame
 from skyline_viz.kernels.canny import canny
 from skyline_viz.kernels.percentiles import percentiles_of_counts
-from skyline_viz.kernels.planes import padded_planes
-from skyline_viz.kernels.sobel import sobel
+from skyline_viz.kernels.planes import REACH, padded_planes
+from skyline_viz.kernels.sobel import sampled_strengths
 
 STRONG_PERCENTILE = 95
 """Percentile of a photo's gradients that stands for its strong ones."""
@@ -51,9 +50,6 @@ many if the map has more."""
 SHORTEST_GAP = 1 / 64
 """Edges are sought where they are missing in this share of the columns, one after the other."""
 
-Slopes: TypeAlias = tuple[I16, I16]
-"""Sobel gradients along rows and columns, each ``(H, W)``."""
-
 
 def to_grey(photo: U8) -> U8:
     """Grey photo ``(H, W)`` uint8 of an RGB photo ``(H, W, 3)``, with the weights of ITU-R 601.
@@ -72,7 +68,11 @@ def frame_of(photo: U8, config: DetectorConfig) -> Frame:
 
 
 def candidate_edges(
-    photo: U8, config: DetectorConfig, frame: Frame | None = None, sky: F32 | None = None
+    photo: U8,
+    config: DetectorConfig,
+    frame: Frame | None = None,
+    sky: F32 | None = None,
+    planes: U8 | None = None,
 ) -> tuple[Bool, tuple[float, float]]:
     """Edge map ``(H, W)`` of a photo without its frame, and the Canny thresholds that made it.
 
@@ -82,19 +82,22 @@ def candidate_edges(
         frame: That of `frame_of`, where it is known already.
         sky: ``(h, w)`` the map of a sky model, at whose boundary further edges are sought, see
             `seek`; none without one.
+        planes: The photo's own `padded_planes`, where they are there already.
     """
     height, width = photo.shape[:2]
-    rows, columns = (frame or frame_of(photo, config)).inside(photo)
-    slopes = slopes_of(photo[rows, columns], config.edge_source)
+    frame = frame_of(photo, config) if frame is None else frame
+    rows, columns = frame.inside(photo)
+    if planes is None or frame != Frame() or config.edge_source == "grey":
+        planes = _planes_of(photo[rows, columns], config.edge_source)
     thresholds = config.low_threshold, config.high_threshold
     if config.fit_thresholds:
-        thresholds = fitted_thresholds(*slopes, *thresholds)
-    found = canny(*slopes, *thresholds)
+        thresholds = fitted_thresholds(sampled_strengths(planes, GRADIENT_STEP), *thresholds)
+    found = canny(planes, *thresholds)
     if sky is not None and config.sky_edges < 1:
         where, doubt = boundary(sky, height, width)
         lower = thresholds[0] * config.sky_edges, thresholds[1] * config.sky_edges
         near = np.where(doubt > SURE, -1, np.rint(where) - rows.start)[columns].astype(np.int32)
-        seek(found, slopes, lower, near, math.ceil(height / min(len(sky), REGIONS)))
+        seek(found, planes, lower, near, math.ceil(height / min(len(sky), REGIONS)))
     if found.shape == (height, width):
         return found, thresholds
     edges = np.zeros((height, width), np.bool_)
@@ -126,17 +129,32 @@ def find_edges(photo: U8, source: EdgeSource, low: float, high: float) -> Bool:
         >>> np.flatnonzero(edges.all(axis=1))
         array([5])
     """
-    return canny(*slopes_of(photo, source), low, high)
+    return canny(_planes_of(photo, source), low, high)
 
 
-def slopes_of(photo: U8, source: EdgeSource) -> Slopes:
-    """Sobel gradients of a photo ``(H, W, 3)``, as `find_edges` describes them: see `Slopes`."""
-    return sobel(padded_planes(to_grey(photo) if source == "grey" else photo, 1))
+def gradient_norms(photo: U8, source: EdgeSource) -> I16:
+    """What the thresholds of `find_edges` are compared with: L1 norms of gradients, ``(H, W)``.
+
+    Args:
+        photo: ``(H, W, 3)`` uint8 RGB.
+        source: Whether to look at the grey or the colour photo.
+
+    Examples:
+        >>> photo = np.full((4, 3, 3), 200, np.uint8)
+        >>> photo[2:] = 60
+        >>> gradient_norms(photo, "grey")[:, 1].tolist()
+        [0, 560, 560, 0]
+    """
+    norms = sampled_strengths(_planes_of(photo, source), 1)
+    return norms.reshape(photo.shape[:2])[::-1]  # which begins at the last row
 
 
-def seek(
-    edges: Bool, slopes: Slopes, thresholds: tuple[float, float], near: Int, half: int
-) -> None:
+def _planes_of(photo: U8, source: EdgeSource) -> U8:
+    """What `find_edges` looks at."""
+    return padded_planes(to_grey(photo) if source == "grey" else photo)
+
+
+def seek(edges: Bool, planes: U8, thresholds: tuple[float, float], near: Int, half: int) -> None:
     """Add edges, in place, where the sky model has a sure boundary and no edge lies near it.
 
     Lower thresholds everywhere would make edges of clouds and grain. Here it is known where the
@@ -144,7 +162,7 @@ def seek(
 
     Args:
         edges: ``(H, W)`` edge map.
-        slopes: Gradients of the same photo.
+        planes: ``(C, H + 6, W + 6)`` channels of the same photo, see `padded_planes`.
         thresholds: Lower and upper Canny threshold to seek with.
         near: ``(W,)`` row of the boundary; at the upper or lower rim or beyond where there is none.
         half: So many rows above and below it edges are near.
@@ -160,13 +178,13 @@ def seek(
     # a pixel more at each side: Canny compares neighbours
     left, right = max(columns[0] - 1, 0), columns[-1] + 2
     top, end = max(near[columns].min() - half - 1, 0), near[columns].max() + half + 2
-    across, down = (np.ascontiguousarray(one[top:end, left:right]) for one in slopes)
-    more = canny(across, down, *thresholds)
+    rim = 2 * REACH
+    more = canny(planes[:, top : end + rim, left : right + rim].copy(), *thresholds)
     apart = np.abs(np.arange(top, top + len(more))[:, None] - near[left:right])
     edges[top : top + len(more), left:right] |= more & (apart <= half) & wanted[left:right]
 
 
-def fitted_thresholds(across: I16, down: I16, low: float, high: float) -> tuple[float, float]:
+def fitted_thresholds(strengths: I16, low: float, high: float) -> tuple[float, float]:
     """Canny thresholds lowered for a soft or hazy photo, as far as its noise allows.
 
     Fixed thresholds miss the skyline of a photo that is a little out of focus. The strong
@@ -174,22 +192,18 @@ def fitted_thresholds(across: I16, down: I16, low: float, high: float) -> tuple[
     begins. The thresholds keep their ratio and are never raised.
 
     Args:
-        across: ``(H, W)`` Sobel gradient along the rows.
-        down: ``(H, W)`` Sobel gradient along the columns.
+        strengths: ``(n,)`` L1 norms of Sobel gradients, of pixels that stand for the photo.
         low: Lower threshold for a crisp photo.
         high: Upper threshold for a crisp photo.
 
     Examples:
         In a photo without any gradient they are lowered as far as they may be.
 
-        >>> flat = np.zeros((60, 60), np.int16)
-        >>> fitted_thresholds(flat, flat, 50.0, 220.0)
+        >>> fitted_thresholds(np.zeros(100, np.int16), 50.0, 220.0)
         (15.0, 66.0)
     """
-    every = (slice(None, None, -GRADIENT_STEP), slice(None, None, GRADIENT_STEP))
-    gradients = np.abs(across[every]) + np.abs(down[every])
     both = NOISE_PERCENTILE, STRONG_PERCENTILE
-    weak, strong = percentiles_of_counts(gradients.ravel(), both)
+    weak, strong = percentiles_of_counts(strengths, both)
     wanted = max(STRONG_SHARE * strong, NOISE_MULTIPLE * weak) / (high or 1.0)
     factor = float(min(max(wanted, LOWEST_FACTOR), 1.0))
     return low * factor, high * factor
@@ -202,9 +216,12 @@ def edge_pixels(edges: Bool) -> tuple[Int, Int]:
         >>> edge_pixels(np.array([[False, True], [True, False]]))
         (array([0, 1], dtype=int32), array([1, 0], dtype=int32))
     """
-    flat = np.flatnonzero(edges).astype(np.int32)
-    rows = flat // np.int32(edges.shape[1])
-    return rows, flat - rows * np.int32(edges.shape[1])
+    edges = np.ascontiguousarray(edges)
+    # a place more than there are: the pixel after an edge pixel is written, edge or not
+    count = np.count_nonzero(edges)
+    rows, columns = np.empty(count, np.int32), np.empty(count + 1, np.int32)
+    _list_edges(edges.view(np.uint8), rows, columns)
+    return rows, columns[:-1]
 
 
 def edge_index(edges: Bool) -> Int:
@@ -240,3 +257,24 @@ def edge_settings(config: DetectorConfig) -> tuple[object, ...]:
     """What `candidate_edges` depends on where there is no map of the sky."""
     thresholds = (config.low_threshold, config.high_threshold, config.fit_thresholds)
     return (config.edge_source, *thresholds, config.frame)
+
+
+@numba.njit(cache=True, nogil=True)
+def _list_edges(edges: U8, rows: Int, columns: Int) -> None:
+    """Fill in where the edge pixels are; eight pixels without any are one question."""
+    height, width = edges.shape
+    count = np.uintp(0)
+    whole = width - width % 8
+    for row in range(height):
+        line, first = edges[row], count
+        eights = line[:whole].view(np.uint64)
+        for at in range(len(eights)):
+            if eights[at] == 0:
+                continue
+            for column in range(8 * at, 8 * at + 8):
+                columns[count] = column
+                count += np.uintp(line[column])
+        for column in range(whole, width):
+            columns[count] = column
+            count += np.uintp(line[column])
+        rows[first:count] = row

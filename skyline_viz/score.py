@@ -15,13 +15,16 @@ import numpy as np
 from skyline_viz.arrays import F32, U8, Int
 from skyline_viz.kernels.vectors import LANES, dot_lanes
 
+_BAND = 32
+"""Rows that are made floats together: what of them is read stays in the cache."""
+
 
 def score_at(grey: U8, rows: Int, columns: Int, bins: Int, filters: F32) -> F32:
     """Confidence that each chosen pixel belongs to the skyline.
 
     Args:
         grey: ``(H, W)`` uint8.
-        rows: ``(n,)`` int32.
+        rows: ``(n,)`` int32; fastest by far in ascending order.
         columns: ``(n,)`` int32.
         bins: ``(n,)`` int32, the filter to use.
         filters: ``(K, m, m)`` float32.
@@ -46,17 +49,17 @@ def score_at(grey: U8, rows: Int, columns: Int, bins: Int, filters: F32) -> F32:
     taps = np.zeros((*filters.shape[:2], lanes), np.float32)
     taps[:, :, :size] = filters
     scores = np.empty(len(rows), np.float32)
-    picture = padded.astype(np.float32)
-    _apply(
-        picture.ravel(), picture.shape[1], rows, columns, bins, taps.ravel(), (0,) * size, scores
-    )
+    band = np.empty((_BAND + size - 1) * padded.shape[1], np.float32)
+    chosen = rows, columns, bins
+    _apply(padded.ravel(), padded.shape[1], band, *chosen, taps.ravel(), (0,) * size, scores)
     return scores
 
 
 @numba.njit(cache=True, nogil=True)
 def _apply(
-    picture: F32,
+    picture: U8,
     stride: int,
+    band: F32,
     rows: Int,
     columns: Int,
     bins: Int,
@@ -72,6 +75,7 @@ def _apply(
     Args:
         picture: The padded grey photo, flat.
         stride: Its width.
+        band: Room for the rows around `_BAND` of them.
         rows: ``(n,)``, as are `columns` and `bins`.
         columns: See `rows`.
         bins: See `rows`.
@@ -82,10 +86,21 @@ def _apply(
     size = len(height)
     lanes = np.uintp((size + LANES - 1) // LANES * LANES)
     step = np.uintp(stride)
+    top = end = 0
     for pixel in range(len(rows)):
+        if not top <= rows[pixel] < end:
+            top = rows[pixel]
+            end = min(top + _BAND, len(picture) // stride - size + 1)
+            _to_floats(picture[top * stride : (end + size - 1) * stride], band)
         own = np.uintp(bins[pixel]) * np.uintp(size) * lanes
-        place = np.uintp(rows[pixel]) * step + np.uintp(columns[pixel])
+        place = np.uintp(rows[pixel] - top) * step + np.uintp(columns[pixel])
         total = np.float32(0)
         for lane in range(np.uintp(0), lanes, np.uintp(LANES)):
-            total += dot_lanes(taps, own + lane, lanes, picture, place + lane, step, height)
+            total += dot_lanes(taps, own + lane, lanes, band, place + lane, step, height)
         scores[pixel] = min(max(total * np.float32(1 / 255), np.float32(0)), np.float32(1))
+
+
+@numba.njit(cache=True, nogil=True)
+def _to_floats(picture: U8, band: F32) -> None:
+    for place in range(len(picture)):
+        band[place] = picture[place]

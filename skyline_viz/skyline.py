@@ -18,6 +18,7 @@ from skyline_viz.arrays import (
     Bool,
     check_photo,
     column_counts,
+    column_ends,
     in_colour,
     in_colours,
     read_only,
@@ -208,7 +209,7 @@ class Skyline:
         visible = column_counts(painted) > 0
         if not visible.any():
             raise SkylineError("no pixel is painted in pure red or pure blue")
-        return cls(rows=fill(painted.argmax(axis=0), visible), visible=visible)
+        return cls(rows=fill(column_ends(painted)[0], visible), visible=visible)
 
     def write_csv(self, path: str | os.PathLike[str]) -> None:
         """Write ``column,row,visible``, a line a column; `visible` is 1 or 0."""

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skyline_viz.arrays import F32, U8, Int
-from skyline_viz.kernels.eigen import doubled, strengths, to_degrees
+from skyline_viz.kernels.eigen import to_degrees, without_angle
 from skyline_viz.kernels.planes import padded_planes
 from skyline_viz.kernels.tensor_sums import window_sums
 
@@ -31,7 +31,6 @@ WINDOW = np.array([0.0053, 0.0948, 0.3999, 0.3999, 0.0948, 0.0053], np.float32)
 """The window along one axis; the weight of a 6x6 neighbourhood is its outer product."""
 
 _CHUNK = 1 << 13  # tensors at a time, so that what is worked out on the way stays in the cache
-_REACH = 3  # pixels that the 6-tap window of 2x2 differences needs to each side
 
 
 @dataclass(frozen=True)
@@ -63,7 +62,7 @@ def tensor_map(photo: U8) -> Tensor:
         np.float32(0.0)
     """
     height, width = photo.shape[:2]
-    channels = [plane.astype(np.float32) for plane in padded_planes(photo, _REACH)]
+    channels = [plane.astype(np.float32) for plane in padded_planes(photo)]
     falling = [plane[1:, 1:] - plane[:-1, :-1] for plane in channels]
     rising = [plane[:-1, 1:] - plane[1:, :-1] for plane in channels]
     gx = [(a + b) / 2 for a, b in zip(falling, rising, strict=True)]
@@ -83,13 +82,14 @@ def tensor_map(photo: U8) -> Tensor:
     return Tensor(strength, coherence, orientation)
 
 
-def tensor_at(photo: U8, rows: Int, columns: Int) -> Tensor:
+def tensor_at(photo: U8, rows: Int, columns: Int, planes: U8 | None = None) -> Tensor:
     """Structure tensor at chosen pixels only.
 
     Args:
         photo: ``(H, W, 3)`` uint8 RGB.
         rows: ``(n,)`` int32, each in ``[0, H)``; fastest in ascending order.
         columns: ``(n,)`` int32, each in ``[0, W)``.
+        planes: The photo's `padded_planes`, where they are there already.
 
     Returns:
         Three arrays ``(n,)``.
@@ -106,9 +106,10 @@ def tensor_at(photo: U8, rows: Int, columns: Int) -> Tensor:
     order = None if (rows[1:] >= rows[:-1]).all() else np.argsort(rows, kind="stable")
     if order is not None:
         rows, columns = rows[order], columns[order]
-    first = np.searchsorted(rows, np.arange(photo.shape[0] + 1))
+    first = np.searchsorted(rows, np.arange(photo.shape[0] + 1, dtype=np.int32))
     sums = np.empty((3, len(rows)), np.float32)
-    window_sums(padded_planes(photo, _REACH), columns, first, WINDOW, sums)
+    planes = padded_planes(photo) if planes is None else planes
+    window_sums(planes, columns, first, WINDOW, sums)
     features = _eigen(*sums)
     if order is not None:
         features[:, order] = features.copy()
@@ -126,8 +127,7 @@ def _eigen(txx: F32, txy: F32, tyy: F32) -> F32:
 
 def _eigen_part(txx: F32, txy: F32, tyy: F32, features: F32) -> None:
     """Write `_eigen` of a few tensors to `features`."""
-    strengths(txx, txy, tyy, features[0], features[1])
     sine, cosine = np.empty_like(txx), np.empty_like(txx)
-    doubled(txx, txy, tyy, sine, cosine)
+    without_angle(txx, txy, tyy, features[0], features[1], sine, cosine)
     np.arctan2(sine, cosine, out=features[2])
     to_degrees(features[2])

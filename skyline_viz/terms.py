@@ -161,7 +161,11 @@ class ClearSky(Term):
 
     def add(self, cost: F32) -> None:
         """See `Term.add`."""
-        cost += nodal_costs(self.edges, None, 0.0, self.paid).T
+        cost += self.map()
+
+    def map(self) -> F32:
+        """See `Term.map`."""
+        return nodal_costs(self.edges, None, 0.0, self.paid).T
 
     def answer(self, added: Bool, first: int) -> F32:
         """See `Term.answer`."""
@@ -197,8 +201,12 @@ class Sky(Term):
     """What a pixel pays at the most."""
 
     def add(self, cost: F32) -> None:
-        """See `Term.add`: exact inside regions, and interpolated between their columns."""
-        cost += nodal_costs(self.edges, None, 0.0, sky=self.paid).T
+        """See `Term.add`."""
+        cost += self.map()
+
+    def map(self) -> F32:
+        """See `Term.map`: exact inside regions, and interpolated between their columns."""
+        return nodal_costs(self.edges, None, 0.0, sky=self.paid).T
 
     @property
     def paid(self) -> Improbable:

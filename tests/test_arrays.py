@@ -8,7 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from skyline_viz.arrays import check_photo, column_counts, in_colour, read_only, runs
+from skyline_viz.arrays import (
+    check_photo,
+    column_counts,
+    column_ends,
+    in_colour,
+    in_numbers,
+    read_only,
+    runs,
+)
 
 LOW = st.integers(0, 2)
 
@@ -90,3 +98,17 @@ def test_no_byte_has_a_level_of_16_bits():
 def test_columns_are_counted(mask):
     assert np.array_equal(column_counts(mask), mask.sum(axis=0))
     assert np.array_equal(column_counts(mask.T[::-1]), mask.T.sum(axis=0))
+
+
+@given(arrays(np.bool_, st.tuples(st.integers(1, 9), st.integers(1, 9))))
+def test_columns_end_where_their_first_and_last_pixels_are(mask):
+    first, last = column_ends(mask)
+    seen = mask.any(axis=0)
+    assert np.array_equal(first, mask.argmax(axis=0))
+    assert np.array_equal(last, np.where(seen, len(mask) - 1 - mask[::-1].argmax(axis=0), 0))
+
+
+def test_pixels_of_one_colour_have_one_number():
+    photo = np.array([[[1, 2, 3], [3, 2, 1], [1, 2, 3]]], np.uint8)
+    one, other, same = in_numbers(photo[:, ::-1])[0].tolist()
+    assert one == same != other

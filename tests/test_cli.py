@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from contextlib import nullcontext
 
 import pytest
 
@@ -42,6 +43,13 @@ COMMANDS = [
     "render",
     "demo",
 ]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_defaults_are_of_their_types(say, command, monkeypatch):
+    monkeypatch.setattr("skyline_viz.command_line.program.without", lambda *_: nullcontext())
+    assert say(command, "--help")[0] == 0  # tyro asks typeguard, and warns
+    assert "typeguard" in sys.modules
 
 
 def test_help_imports_nothing_heavy():

@@ -25,7 +25,10 @@ from skyline_viz.arrays import F32, F64, read_only
 from skyline_viz.path import APART, column_margin, cross, sweep
 
 KEPT = 4_000_000
-"""Forward costs that are kept at a time, 8 bytes each: all of a photo that is not large."""
+"""Forward costs that are kept, 8 bytes each: all of a photo that has no more pixels."""
+
+BLOCK = 1_000_000
+"""Those that are kept at a time of a larger one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +67,7 @@ def uncertainty(
     """
     height, width = cost.shape
     columns: F32 = np.ascontiguousarray(cost.T)
-    step = max(KEPT // height, 1)
+    step = max((KEPT if cost.size <= KEPT else BLOCK) // height, 1)
     starts = range(0, max(width - 1, 1), step)  # of the blocks, each of which ends where one starts
     reach = np.full(step, min(int(delta), height - 1), np.int32)
     table = np.empty((min(step, width - 1) + 1, height))

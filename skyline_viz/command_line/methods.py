@@ -17,6 +17,7 @@ from skyline_viz.command_line.settings import BankFile, Preset
 from skyline_viz.config import DetectorConfig, refuse_gone
 from skyline_viz.system.memory import loading
 from skyline_viz.system.settings import MethodError, spelt
+from skyline_viz.system.stand_ins import without
 
 if TYPE_CHECKING:
     from skyline_viz.method import Configurable
@@ -75,7 +76,7 @@ class Methods:
                 named of no network.
             MethodError: There is none of that name, its file is damaged, or it was not trained.
         """
-        with loading():
+        with loading(), without("coverage"):  # which numba would tell of compiled lines
             from skyline_viz.method import LearnedMethod
             from skyline_viz.methods.registry import find_method, has_learned
             from skyline_viz.methods.sky_network import SkyNetwork

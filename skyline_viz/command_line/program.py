@@ -11,6 +11,7 @@ import sys
 import traceback
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from types import ModuleType
 from typing import Any, Protocol
 
 import tyro
@@ -32,6 +33,7 @@ from skyline_viz.system.endings import AskedToEnd, asked_by_signals
 from skyline_viz.system.memory import end_quickly, keep_freed, loading
 from skyline_viz.system.names import printable
 from skyline_viz.system.notes import heard_by, once
+from skyline_viz.system.stand_ins import without
 
 _QUIET = "warn,re_log_encoding=off,re_sdk=off"
 """Rerun tells in its own way of recordings that cannot be written; `new_recording` does in ours."""
@@ -100,7 +102,7 @@ def parsed(program: str, about: str, commands: Any, arguments: Sequence[str]) ->
     """
     said = io.StringIO()
     try:
-        with contextlib.redirect_stderr(said):
+        with contextlib.redirect_stderr(said), without("typeguard", _trusting()):
             command: Command = tyro.cli(
                 commands, prog=program, description=about, args=list(arguments)
             )
@@ -128,6 +130,17 @@ def _run(program: str, parse: Callable[[list[str]], Command], arguments: list[st
     if (megapixels := getattr(command, "max_megapixels", None)) is not None:
         limit(megapixels)
     return command.run()
+
+
+def _trusting() -> ModuleType:
+    """What tyro asks whether our defaults are of their types: they are, a test asks typeguard.
+
+    To import that takes as long as two detections.
+    """
+    trusting: Any = ModuleType("typeguard")
+    trusting.check_type = lambda value, _: value
+    trusting.TypeCheckError = TypeError
+    return trusting  # type: ignore[no-any-return]
 
 
 def _refusal_behind(error: BaseException) -> ValueError | None:

@@ -46,6 +46,7 @@ from skyline_viz.system.memory import (
     RECORDING_FULL,
     in_words,
 )
+from skyline_viz.viewer.frugal import import_frugally
 
 if TYPE_CHECKING:
     import rerun as rr
@@ -130,8 +131,8 @@ class Inspect:
             items = [replace(self._with_truth(one), name=one.name) for one in inputs]
             return write_report(self.report, title, items, self.methods.chosen())
         failures: list[Failure] = []
-        using = self._using(inputs, failures)
         pixels = self._foresee(inputs)
+        using = self._using(inputs, failures)
         with self._folder() as folder:
             files = self._record(inputs, pixels, using, folder, failures)
             if files:
@@ -140,14 +141,17 @@ class Inspect:
 
     def _foresee(self, inputs: Sequence[NamedItem]) -> dict[str, int]:
         """Say what is too large, or is kept in part; return the pixels of each input by name."""
-        from skyline_viz.viewer.contents import fidelity_of
-
         if not 0 <= self.full_megapixels < float("inf"):
             raise UsageError(f"--full-megapixels is 0 or more, not {self.full_megapixels:g}.")
         named = (replace(one.item, name=one.name) for one in inputs)
         most = self.max_megapixels * 1e6
         pixels = {item.name: found for item, found in pixels_of(named) if found <= most}
-        total = max(pixels.values(), default=0) if self.split else sum(pixels.values())
+        largest = max(pixels.values(), default=0)
+        if largest > FULL_MEGAPIXELS * 1e6:
+            import_frugally()
+        from skyline_viz.viewer.contents import fidelity_of
+
+        total = largest if self.split else sum(pixels.values())
         full = total <= self.full_megapixels * 1e6
         if not full:
             size = in_words(FULL_RECORDING * total)
@@ -176,9 +180,11 @@ class Inspect:
             raise UsageError(
                 f"--report and {'--sweep' if self.sweep else '--split'} exclude each other."
             )
+        if chosen:
+            return
         from skyline_viz.viewer.program.process import has_display  # the viewer is heavy
 
-        if not chosen and not has_display():
+        if not has_display():
             raise UsageError(
                 "there is no display to open the viewer on: use --save FILE.rrd, --serve, "
                 "or --screenshot FILE.png."

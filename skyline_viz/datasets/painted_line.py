@@ -10,7 +10,16 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import U8, Bool, column_counts, in_colours
+from skyline_viz.arrays import (
+    F32,
+    U8,
+    Bool,
+    Int,
+    column_counts,
+    column_ends,
+    in_colours,
+    in_numbers,
+)
 from skyline_viz.datasets.label_picture import LabelPicture
 from skyline_viz.datasets.sky_region import Line, spans_of
 from skyline_viz.skyline import PAINTS, Paint, Skyline, SkylineError
@@ -21,8 +30,8 @@ _FEW = 64
 _BARE = 0.9
 """That share is nearly all."""
 
-_MIX = np.array([40503, 31161, 34283], np.uint16)
-"""Odd numbers that spread colours over 16 bits."""
+_MIX = np.uint32(2654435769)
+"""An odd number that spreads colours over 32 bits, the more evenly the higher the bit."""
 
 _APART = 0.1
 """Paint so far from the rest of the line, as a share of the height, is odd."""
@@ -89,9 +98,7 @@ def _may_be_bare(colours: U8, hits: Bool) -> bool:
     A quarter of the rows is looked at. Colours are put into 4,096 cells, so that few colours have
     at most the pixels of as many cells; and those that are not looked at may be of these colours.
     """
-    part = colours[::4]
-    mixed = [part[:, :, one] * _MIX[one] for one in range(3)]
-    cells = (mixed[0] + mixed[1] + mixed[2]) >> 4
+    cells = (in_numbers(colours[::4]) * _MIX) >> 20
     sums = np.bincount(cells.ravel(), minlength=4096)
     beneath = hits.size - np.count_nonzero(hits)
     most = np.sort(sums)[-_FEW:].sum() + hits.size - cells.size
@@ -110,8 +117,8 @@ def _is_border(keys: npt.NDArray[np.int32], hits: Bool) -> bool:
     visible = np.flatnonzero(hits.any(axis=0))
     if len(visible) < 0.75 * hits.shape[1]:
         return False
-    top = hits.argmax(axis=0)[visible]
-    end = height - hits[::-1].argmax(axis=0)[visible]
+    first, last = column_ends(hits)
+    top, end = first[visible], last[visible] + 1
     if (top == 0).mean() > 0.5:  # sky at the top, however thin
         return False
     if len(np.unique(keys[~hits])) == 1:
@@ -139,21 +146,29 @@ def _agree(one: Skyline, other: Skyline) -> bool:
 def _notes(skyline: Skyline, hits: Bool) -> tuple[str, ...]:
     """What is odd about the paint: some of it lies far from the rest of the line."""
     height, width = hits.shape
-    last = height - 1 - hits[::-1].argmax(axis=0)
-    loose = last - skyline.rows + 1 - column_counts(hits)
+    loose = column_ends(hits)[1] - skyline.rows + 1 - column_counts(hits)
     odd = skyline.visible & (loose > max(8, _APART * height))
     shown = np.flatnonzero(skyline.visible)
-    reach = max(2, width // 20)
-    if len(shown) > 4 * reach:
-        windows = np.lib.stride_tricks.sliding_window_view(
-            np.pad(skyline.rows[shown], reach, mode="edge"), 2 * reach + 1
-        )
-        # far from the median is what half of the window lies far from, on one side
-        apart = windows - skyline.rows[shown][:, None]
-        limit = max(8, _APART * height)
-        far = [beyond.sum(axis=1) > reach for beyond in (apart > limit, apart < -limit)]
-        odd[shown[far[0] | far[1]]] = True
+    odd[shown[_far(skyline.rows[shown], max(2, width // 20), max(8, _APART * height))]] = True
     if not odd.any():
         return ()
     where = spans_of(np.flatnonzero(odd))
     return (f"paint far from the rest of the line, in {where}, counts as skyline",)
+
+
+def _far(rows: F32, reach: int, limit: float) -> Int:
+    """Columns in which a line is farther from its median around than so many rows."""
+    if len(rows) <= 4 * reach:
+        return np.zeros(0, np.int32)
+    import cv2  # noqa: PLC0415  # not needed for help
+
+    window = 2 * reach + 1
+    line, wide = rows[None], np.ones((1, window), np.uint8)
+    edge = {"borderType": cv2.BORDER_REPLICATE}
+    span = np.maximum(cv2.dilate(line, wide, **edge) - line, line - cv2.erode(line, wide, **edge))
+    some = np.flatnonzero(span[0] > limit).astype(np.int32)  # the others are far from no neighbour
+    around = np.lib.stride_tricks.sliding_window_view(np.pad(rows, reach, mode="edge"), window)
+    # far from the median is what half of the window lies far from, on one side
+    apart = around[some] - rows[some, None]
+    most = np.maximum((apart > limit).sum(axis=1), (apart < -limit).sum(axis=1))
+    return np.asarray(some[most > reach])

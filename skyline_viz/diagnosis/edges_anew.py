@@ -11,10 +11,9 @@ import numpy as np
 from skyline_viz.arrays import F32, Bool, Int
 from skyline_viz.cost import CostModel, Seen
 from skyline_viz.diagnosis.counterfactual import Case
-from skyline_viz.edges import edge_index, edge_pixels, slopes_of, to_grey
+from skyline_viz.edges import edge_index, edge_pixels, find_edges, to_grey
 from skyline_viz.evaluation.metrics import scaled
 from skyline_viz.filter_detection import FilterDetection
-from skyline_viz.kernels.canny import canny
 from skyline_viz.score import score_at
 from skyline_viz.tensor import tensor_at
 
@@ -75,9 +74,8 @@ def _edges(detection: FilterDetection, band: Bool, factor: float) -> Bool:
         slice(max(rows[0] - 3, down.start), min(rows[-1] + 4, down.stop)),
         slice(max(columns[0] - 3, across.start), min(columns[-1] + 4, across.stop)),
     )
-    slopes = slopes_of(np.ascontiguousarray(detection.photo[part]), detection.config.edge_source)
     low, high = (factor * one for one in detection.thresholds)
-    found = canny(*slopes, low, high)
+    found = find_edges(detection.photo[part], detection.config.edge_source, low, high)
     anew = edges[part] & found if factor > 1 else edges[part] | found
     edges[part] = np.where(band[part], anew, edges[part])
     return edges

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, U8, Int, read_only
 from skyline_viz.detection import Detection
-from skyline_viz.edges import slopes_of, to_grey
+from skyline_viz.edges import gradient_norms, to_grey
 from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.score import score_at
 from skyline_viz.tensor import tensor_at
@@ -255,9 +255,8 @@ def _gradients(found: FilterDetection, rows: Int, columns: Int) -> F64:
     rows, columns = rows[inside], columns[inside]
     top, left = max(rows.min() - 1, down.start), max(columns.min() - 1, across.start)
     end, right = min(rows.max() + 2, down.stop), min(columns.max() + 2, across.stop)
-    slopes = slopes_of(found.photo[top:end, left:right], found.config.edge_source)
-    both = [np.abs(one[rows - top, columns - left].astype(np.int32)) for one in slopes]
-    gradients[inside] = both[0] + both[1]
+    norms = gradient_norms(found.photo[top:end, left:right], found.config.edge_source)
+    gradients[inside] = norms[rows - top, columns - left]
     return gradients
 
 

@@ -21,7 +21,7 @@ import numpy as np
 
 from skyline_viz.arrays import I16, U8
 from skyline_viz.frames.frame import ACROSS, SIDES, Frame, Side
-from skyline_viz.frames.lines import away, colour_of, constant, differ, lighter
+from skyline_viz.frames.lines import border, constant, end
 
 TOLERANCE = 24
 """Grey levels by which a bar may differ from its colour, as compression leaves it."""
@@ -67,7 +67,7 @@ class _Bar:
     """Its width, in pixels."""
 
     colour: I16
-    """``(3,)``."""
+    """``(3,)``: blue, green, red."""
 
     share: float
     """Share of the rim along which the picture begins with a step."""
@@ -106,8 +106,12 @@ class _Picture:
     frame: Frame
 
     def from_side(self, side: Side) -> U8:
-        """The picture turned: from a side inwards, along that side, and colour."""
-        inside = self.photo[self.frame.inside(self.photo)]
+        """The picture turned: from a side inwards, along that side, and colour.
+
+        Colours are blue, green, red: backwards in memory, as a turned picture is, so that loops are
+        compiled for one kind of picture.
+        """
+        inside = self.photo[self.frame.inside(self.photo)][..., ::-1]
         turned = inside.transpose(1, 0, 2) if side in ("left", "right") else inside
         return turned[::-1] if side in ("right", "bottom") else turned
 
@@ -136,12 +140,11 @@ class _Picture:
     def bar(self, side: Side) -> _Bar | None:
         """What looks like a bar at a side: one colour, and a straight step at its end."""
         turned, room = self.from_side(side), self.room(side)
-        every = max(turned.shape[1] // _SAMPLES, 1)
-        colour = colour_of(turned[0], every)
-        if room <= 0 or away(turned[0], every, colour, TOLERANCE) > STRAY:
+        if room <= 0:
             return None
+        every = max(turned.shape[1] // _SAMPLES, 1)
         needed = SOME if side in ("left", "right") else MOST
-        width, stray = constant(turned[: room + 1], every, colour, TOLERANCE, needed)
+        colour, width, stray = constant(turned[: room + 1], every, TOLERANCE, STRAY, needed)
         return self.measured(side, width, colour, needed) if stray <= TEXT else None
 
     def measured(self, side: Side, width: int, colour: I16, needed: float) -> _Bar | None:
@@ -151,9 +154,8 @@ class _Picture:
             return None
         every = max(turned.shape[1] // _FINE, 1)
         last, first = turned[max(width - BLUR, 0)], turned[min(width + BLUR, len(turned)) - 1]
-        share = differ(last, first, every, STEP)
-        straight = away(last, every, colour, TOLERANCE) <= STRAY
-        return _Bar(width, colour, share) if straight and share > needed else None
+        share, other = end(last, first, every, STEP, colour, TOLERANCE)
+        return _Bar(width, colour, share) if other <= STRAY and share > needed else None
 
     def is_bar(self, side: Side, bars: dict[Side, _Bar | None]) -> bool:
         """Whether what looks like a bar is one.
@@ -185,10 +187,7 @@ class _Picture:
         """Width of the thin border at a side: where most of a rim gets lighter, or darker."""
         turned = self.from_side(side)
         every = max(turned.shape[1] // _FINE, 1)
-        for width in range(min(thin, len(turned) // 4), 0, -1):
-            if abs(lighter(turned[width - 1], turned[width], every, STEP)) > MOST:
-                return width
-        return 0
+        return int(border(turned, min(thin, len(turned) // 4), every, STEP, MOST))
 
     def changes_inside(self, frame: Frame) -> bool:
         """Whether there is more than one tone in most columns inside a frame."""
@@ -204,7 +203,9 @@ class _Picture:
         """
         inside = self.photo[self.frame.widened(side, width).inside(self.photo)]
         columns = inside[BLUR:-BLUR, :: max(inside.shape[1] // _SAMPLES, 1)].astype(np.int16)
-        change = np.abs(columns[2:] - columns[:-2]).max(axis=2)
+        every = np.abs(columns[2:] - columns[:-2])
+        # numpy takes several times as long for the largest of three neighbours
+        change = np.maximum(np.maximum(every[..., 0], every[..., 1]), every[..., 2])
         crossed = change.max(axis=0, initial=0) > TOLERANCE
         if crossed.mean() <= MOST:
             return False

@@ -1,7 +1,8 @@
 """Lines of pixels, read across a photo: what colour they have, and how they differ.
 
 Lines are looked at every so many pixels, and as far as needed: most photos have no frame, and are
-told so in a hundredth of the time that their edges take.
+told so in a hundredth of the time that their edges take. Whoever looks calls the last three: each
+compiled loop that is called takes a program some milliseconds to load.
 """
 
 import numba
@@ -39,21 +40,6 @@ def away(line: U8, every: int, colour: I16, limit: int) -> float:
 
 
 @numba.njit(cache=True, nogil=True)
-def constant(lines: U8, every: int, colour: I16, limit: int, most: float) -> tuple[int, float]:
-    """How many lines ``(k, n, 3)`` have one colour, and the share of other colours in them.
-
-    They end before the first line with more than a share of pixels of other colours.
-    """
-    stray = 0.0
-    for width in range(len(lines)):
-        other = away(lines[width], every, colour, limit)
-        if other > most:
-            return width, stray / max(width, 1)
-        stray += other
-    return len(lines), stray / len(lines)
-
-
-@numba.njit(cache=True, nogil=True)
 def differ(line: U8, other: U8, every: int, limit: int) -> float:
     """Share of every so many pixels in which two lines ``(n, 3)`` differ."""
     many = 0
@@ -82,3 +68,46 @@ def lighter(line: U8, other: U8, every: int, limit: int) -> float:
         balance += (up > limit) - (down < -limit)
         count += 1
     return balance / count
+
+
+@numba.njit(cache=True, nogil=True)
+def constant(
+    lines: U8, every: int, limit: int, most_first: float, most: float
+) -> tuple[I16, int, float]:
+    """Colour ``(3,)`` of the first of some lines, how many have it, and the share of others there.
+
+    They end before the first line with more than a share of pixels of other colours.
+
+    Args:
+        lines: ``(k, n, 3)``.
+        every: Pixels are looked at every so many.
+        limit: Grey levels by which they may differ from the colour.
+        most_first: Share of pixels of the first line that may have other colours.
+        most: Share of pixels of any line that may.
+    """
+    colour = colour_of(lines[0], every)
+    stray = 0.0
+    width = 0
+    if away(lines[0], every, colour, limit) <= most_first:
+        while width < len(lines):
+            other = away(lines[width], every, colour, limit)
+            if other > most:
+                break
+            stray += other
+            width += 1
+    return colour, width, stray / max(width, 1)
+
+
+@numba.njit(cache=True, nogil=True)
+def end(last: U8, first: U8, every: int, step: int, colour: I16, limit: int) -> tuple[float, float]:
+    """Shares of pixels: in which the first line after some differs, and of others in their last."""
+    return differ(last, first, every, step), away(last, every, colour, limit)
+
+
+@numba.njit(cache=True, nogil=True)
+def border(lines: U8, widest: int, every: int, limit: int, most: float) -> int:
+    """The widest border of lines ``(k, n, 3)`` after which most get lighter, or darker; or 0."""
+    for width in range(min(widest, len(lines) - 1), 0, -1):
+        if abs(lighter(lines[width - 1], lines[width], every, limit)) > most:
+            return width
+    return 0

@@ -1,4 +1,4 @@
-"""Canny's edge map of gradients that are known: non-maximum suppression and hysteresis.
+"""Canny's edge map: gradients, non-maximum suppression and hysteresis.
 
 The result is that of ``cv2.Canny`` on the photo turned upside down, bit for bit. Where two rows
 have the same gradient Canny takes the upper one, which on a sharp skyline is sky; upside down it
@@ -17,107 +17,168 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import I16, Bool
+from skyline_viz.arrays import I16, U8, Bool
+from skyline_viz.kernels.planes import REACH
+from skyline_viz.kernels.sobel import gradients
 
 STEEPEST = 2040
 """The largest sum of both gradients that a 3x3 Sobel filter of 8-bit values can give."""
 
-_TAN = np.float32(13573)  # tan(22.5 degrees) in fixed point, as OpenCV has it
-_ONE = np.float32(1 << 15)  # and 1 in the same unit
+_TAN, _16 = np.uint32(2 * 13573), np.uint32(16)  # tan(22.5 degrees) in fixed point, as OpenCV's
+_A, _B = np.uintp(1), np.uintp(2)  # a place on, and two: unsigned, for none is counted from the end
 
 Words: TypeAlias = npt.NDArray[np.uint64]
 """Pixels, 64 to a word."""
 
 _1, _63 = np.uint64(1), np.uint64(63)  # numba makes floats of words and signed numbers
+_GATHER, _56 = np.uint64(0x0102040810204080), np.uint64(56)
 _DOUBLING = tuple(np.uint64(1 << power) for power in range(6))
 
 
-def canny(across: I16, down: I16, low: float, high: float) -> Bool:
-    """Edge map ``(H, W)`` of gradients.
+def canny(planes: U8, low: float, high: float) -> Bool:
+    """Edge map ``(H, W)`` of a photo.
 
     Args:
-        across: ``(H, W)`` Sobel gradient along the rows, in [-1020, 1020].
-        down: ``(H, W)`` Sobel gradient along the columns, likewise.
+        planes: ``(C, H + 6, W + 6)`` channels of the photo, see `planes.padded_planes`. The
+            gradient of a pixel is that of the channel in which it is strongest.
         low: Pixels above this L1 gradient are edges if such pixels lead to one above `high`.
         high: Pixels above it always are.
 
     Examples:
         A step down a column: of its two rows the lower one is the edge.
 
-        >>> down = np.zeros((6, 4), np.int16)
-        >>> down[2:4] = -400
-        >>> np.flatnonzero(canny(0 * down, down, 50, 220).all(axis=1))
+        >>> from skyline_viz.kernels.planes import padded_planes
+        >>> photo = np.full((6, 4), 200, np.uint8)
+        >>> photo[3:] = 60
+        >>> np.flatnonzero(canny(padded_planes(photo), 50, 220).all(axis=1))
         array([3])
     """
-    height, width = across.shape
+    height, width = planes.shape[1] - 2 * REACH, planes.shape[2] - 2 * REACH
     if height == 0 or width == 0:
         return np.zeros((height, width), np.bool_)
     floor, start = (int(min(max(math.floor(one), 0), STEEPEST)) for one in sorted((low, high)))
-    strength = np.zeros((height + 2, width + 2), np.int16)  # a rim of zeros: beyond is no edge
-    _strengths(across, down, strength)
-    words = -(-width // 64)
-    kept = np.zeros((2, height, words * 64), np.bool_)
-    _suppress(across, down, strength, np.int16(floor), np.int16(start), kept)
-    weak, strong = np.packbits(kept, axis=2, bitorder="little").view(np.uint64)
-    _follow(strong, weak)
-    edges = np.unpackbits(strong.view(np.uint8), axis=1, count=width, bitorder="little")
+    kept = np.empty((2, height, -(-width // 64)), np.uint64)
+    _mark(planes, np.int16(floor), np.int16(start), kept)
+    edges = np.unpackbits(kept[1].view(np.uint8), axis=1, count=width, bitorder="little")
     return edges.view(np.bool_)
 
 
 @numba.njit(cache=True, nogil=True)
-def _strengths(across: I16, down: I16, strength: I16) -> None:
-    """Write the L1 gradients inside the rim of an array ``(H + 2, W + 2)``.
-
-    A pass of its own: in the loop of the Sobel filter it would be one array too many.
-    """
-    height, width = across.shape
-    for row in range(height):
-        for column in range(width):
-            x = across[row, column]
-            y = down[row, column]
-            both = np.int16(max(x, np.int16(-x))) + np.int16(max(y, np.int16(-y)))
-            strength[row + 1, column + 1] = np.int16(both)
+def _mark(planes: U8, low: int, high: int, kept: Words) -> None:
+    """Find edges, see `_keep` and `_follow`: one loop to load is faster than two."""
+    _keep(planes, low, high, kept)
+    _follow(kept[1], kept[0])
 
 
 @numba.njit(cache=True, nogil=True)
-def _suppress(across: I16, down: I16, strength: I16, low: int, high: int, kept: Bool) -> None:
+def _keep(planes: U8, low: int, high: int, kept: Words) -> None:
     """Mark the pixels above the thresholds that are the strongest across their edge.
+
+    A row is compared with those above and below it, so the gradients of three rows are at hand, and
+    those of the whole photo never: a large photo's would not fit into the cache.
+
+    Args:
+        planes: See `canny`.
+        low: The lower threshold.
+        high: The upper one.
+        kept: ``(2, H, W / 64)`` is filled: pixels above the lower threshold, and above the upper
+            one, a bit for each.
+    """
+    height, width = planes.shape[1] - 2 * REACH, planes.shape[2] - 2 * REACH
+    columns = np.empty((2, width + 2), np.int16)
+    x, y = np.empty((2, width), np.int16), np.empty((2, width), np.int16)
+    strength = np.zeros((3, width + 2), np.int16)  # a rim of zeros: beyond is no edge
+    flags = np.zeros((2, 64 * kept.shape[2]), np.uint8)
+    for below in range(height + 1):
+        if below < height:
+            gradients(planes, below, columns, x[below % 2], y[below % 2], strength[below % 3])
+        else:
+            strength[below % 3] = 0
+        row = below - 1
+        if row < 0:
+            continue
+        _suppress(
+            x[row % 2],
+            y[row % 2],
+            strength[(row - 1) % 3],
+            strength[row % 3],
+            strength[below % 3],
+            low,
+            high,
+            flags[0],
+            flags[1],
+        )
+        _pack(flags[0].view(np.uint64), kept[0, row])
+        _pack(flags[1].view(np.uint64), kept[1, row])
+
+
+@numba.njit(cache=True, nogil=True)
+def _suppress(
+    across: I16,
+    down: I16,
+    above: I16,
+    here: I16,
+    below: I16,
+    low: int,
+    high: int,
+    weak: U8,
+    strong: U8,
+) -> None:
+    """Flag the pixels of a row that are the strongest across their edge.
 
     Three directions are told apart: the gradient is within 22.5 degrees of a row, of a column, or
     of neither. All are compared, and the one that holds is chosen with ``&`` and ``|``: a branch
-    would make the loop a pixel at a time. What is squeezed into float32 are whole numbers below
-    2^24, or such times a power of two: exact.
+    would make the loop a pixel at a time.
+
+    With whole numbers, ``tall < tan(22.5) wide`` is ``tall <= limit``, what is left of the product
+    without its fraction: that is 0 for a `wide` of 0 alone, and there, where `tall` is 0 as well,
+    no pixel is above a threshold. So all fit into 16 bits.
 
     Args:
-        across: ``(H, W)``.
-        down: ``(H, W)``.
-        strength: ``(H + 2, W + 2)``, see `_strengths`.
+        across: ``(W,)`` gradients along the row.
+        down: ``(W,)`` gradients down the columns.
+        above: ``(W + 2,)`` L1 gradients of the row above, in a rim of a pixel.
+        here: ``(W + 2,)`` likewise of this row.
+        below: ``(W + 2,)`` likewise of the row below.
         low: The lower threshold.
         high: The upper one.
-        kept: ``(2, H, W)`` or wider: pixels above the lower threshold, and above the upper one.
+        weak: ``(W,)`` or more are filled: 1 above the lower threshold.
+        strong: ``(W,)`` or more are filled: 1 above the upper one.
     """
-    height, width = across.shape
-    for row in range(height):
-        above, here, below = strength[row], strength[row + 1], strength[row + 2]
-        for column in range(width):
-            middle = here[column + 1]
-            x = across[row, column]
-            y = down[row, column]
-            wide = np.float32(max(x, np.int16(-x)))
-            tall = np.float32(max(y, np.int16(-y)))
-            limit = wide * _TAN
-            along_row = tall * _ONE < limit
-            along_column = (tall - wide - wide) * _ONE > limit
-            one_sign = np.int16(x ^ y) >= 0
-            row_best = (middle > here[column]) & (middle >= here[column + 2])
-            column_best = (middle > below[column + 1]) & (middle >= above[column + 1])
-            falling_best = (middle > below[column + 2]) & (middle > above[column])
-            rising_best = (middle > below[column]) & (middle > above[column + 2])
-            aslant_best = (one_sign & falling_best) | (~one_sign & rising_best)
-            upright = (along_column & column_best) | (~along_column & aslant_best)
-            best = (along_row & row_best) | (~along_row & upright)
-            kept[0, row, column] = best & (middle > low)
-            kept[1, row, column] = best & (middle > high)
+    for column in range(np.uintp(len(across))):
+        middle = here[column + _A]
+        x = across[column]
+        y = down[column]
+        wide = np.int16(max(x, np.int16(-x)))
+        tall = np.int16(max(y, np.int16(-y)))
+        limit = np.int16((np.uint32(np.uint16(wide)) * _TAN) >> _16)
+        along_row = tall <= limit
+        along_column = np.int16(np.int16(tall - wide) - wide) > limit
+        one_sign = np.int16(x ^ y) >= 0
+        row_best = (middle > here[column]) & (middle >= here[column + _B])
+        column_best = (middle > below[column + _A]) & (middle >= above[column + _A])
+        falling_best = (middle > below[column + _B]) & (middle > above[column])
+        rising_best = (middle > below[column]) & (middle > above[column + _B])
+        aslant_best = (one_sign & falling_best) | (~one_sign & rising_best)
+        upright = (along_column & column_best) | (~along_column & aslant_best)
+        best = (along_row & row_best) | (~along_row & upright)
+        weak[column] = best & (middle > low)
+        strong[column] = best & (middle > high)
+
+
+@numba.njit(cache=True, nogil=True)
+def _pack(flags: Words, words: Words) -> None:
+    """Make a bit of each flag.
+
+    Eight flags lie in the bytes of a number. Times `_GATHER` each of them is moved to its place in
+    the highest byte, and nothing is carried there.
+    """
+    for word in range(np.uintp(len(words))):
+        bits = np.uint64(0)
+        for eighth in range(8):
+            eight = flags[np.uintp(8) * word + np.uintp(eighth)]
+            bits |= ((eight * _GATHER) >> _56) << np.uint64(8 * eighth)
+        words[word] = bits
 
 
 @numba.njit(cache=True, nogil=True)

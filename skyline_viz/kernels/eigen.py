@@ -1,4 +1,4 @@
-"""Eigenvalues of structure tensors: all that is not an angle, in one pass."""
+"""Eigenvalues of structure tensors: all that is not an angle, and the angle before and after."""
 
 import math
 
@@ -9,7 +9,16 @@ from skyline_viz.arrays import F32
 
 
 @numba.njit(cache=True, nogil=True)
-def strengths(txx: F32, txy: F32, tyy: F32, strength: F32, coherence: F32) -> None:
+def without_angle(
+    txx: F32, txy: F32, tyy: F32, strength: F32, coherence: F32, sine: F32, cosine: F32
+) -> None:
+    """Fill in what `_strengths` and `_doubled` do, one after the other: each touches few arrays."""
+    _strengths(txx, txy, tyy, strength, coherence)
+    _doubled(txx, txy, tyy, sine, cosine)
+
+
+@numba.njit(cache=True, nogil=True)
+def _strengths(txx: F32, txy: F32, tyy: F32, strength: F32, coherence: F32) -> None:
     """Square root of the dominant eigenvalue, and coherence; see `skyline_viz.tensor`.
 
     Args:
@@ -32,7 +41,7 @@ def strengths(txx: F32, txy: F32, tyy: F32, strength: F32, coherence: F32) -> No
 
 
 @numba.njit(cache=True, nogil=True)
-def doubled(txx: F32, txy: F32, tyy: F32, sine: F32, cosine: F32) -> None:
+def _doubled(txx: F32, txy: F32, tyy: F32, sine: F32, cosine: F32) -> None:
     """Sine and cosine of the doubled angle of the gradient, up to a common factor."""
     for pixel in range(len(txx)):
         sine[pixel] = np.float32(2) * txy[pixel]

@@ -98,7 +98,7 @@ def nodal_costs(
     height, width = edges.shape
     costs = np.empty((width, height), np.float32)
     own = own or Own(np.zeros(0, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32))
-    first = np.searchsorted(own.rows, np.arange(height + 1))
+    first = np.searchsorted(own.rows, np.arange(height + 1, dtype=np.int32))
     clear = clear or Clear(np.float32(0), np.float32(0), 0)
     lines, least, cap = NOTHING, NOTHING[0], np.float32(0)
     if sky is not None:
@@ -106,8 +106,8 @@ def nodal_costs(
             np.empty((sky.borders.shape[1], width), np.float32),
             np.empty(width, np.float32),
         )
-        _lines(np.ascontiguousarray(sky.borders.T), sky.left, sky.right, sky.sideways, lines)
-        _least(lines, height, least)
+        borders = np.ascontiguousarray(sky.borders.T)
+        _prepare(borders, sky.left, sky.right, sky.sideways, height, lines, least)
         cap = sky.cap
     flags = np.ascontiguousarray(edges).view(np.uint8)
     pays = own.columns, own.costs, np.float32(elsewhere), first
@@ -121,13 +121,23 @@ def nodal_costs(
 
 
 @numba.njit(cache=True, nogil=True)
+def _prepare(
+    borders: F32, left: Int, right: Int, sideways: F32, height: int, lines: F32, least: F32
+) -> None:
+    """Fill in what all rows need of a map, see `_lines` and `_least`."""
+    _lines(borders, left, right, sideways, lines)
+    _least(lines, height, least)
+
+
+@numba.njit(cache=True, nogil=True)
 def _lines(borders: F32, left: Int, right: Int, sideways: F32, lines: F32) -> None:
     """Interpolate what is paid at the borders of regions ``(h + 1, w)`` between their columns."""
     for border in range(len(borders)):
-        for column in range(lines.shape[1]):
-            here = borders[border, left[column]]
-            there = borders[border, right[column]]
-            lines[border, column] = here + sideways[column] * (there - here)
+        regions, line = borders[border], lines[border]
+        for column in range(np.uintp(len(line))):  # unsigned: none is counted from the end
+            here = regions[np.uintp(left[column])]
+            there = regions[np.uintp(right[column])]
+            line[column] = here + sideways[column] * (there - here)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -200,7 +210,7 @@ def _fill(
         for place in range(np.uintp(first[row]), np.uintp(first[row + 1])):
             line[columns[place]] = values[place]
         if clear.weight > 0 and row > clear.rows:
-            padded[half : half + width] = edges[row - clear.rows - 1]
+            _copy(edges[row - clear.rows - 1], padded[half : half + width])
             _count(padded, threes, above)
             _add_clear(above, steps, clear.cap, line)
         if count > 0:
@@ -208,6 +218,13 @@ def _fill(
             region = int(down)
             within = np.float32(down - region)
             _add_sky(lines[region], lines[region + 1], within, least, cap, line)
+
+
+@numba.njit(cache=True, nogil=True)
+def _copy(line: U8, padded: U8) -> None:
+    """Copy a row: numba's own assignment of arrays takes several times as long."""
+    for column in range(len(line)):
+        padded[column] = line[column]
 
 
 @numba.njit(cache=True, nogil=True)

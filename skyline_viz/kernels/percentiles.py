@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from skyline_viz.arrays import F32, Int
+from skyline_viz.arrays import F32, I16, Int
 
 _SAMPLED = 64  # one value in so many says where the larger ones begin
 
@@ -32,7 +32,7 @@ def upper_percentile(values: F32, percentile: float) -> np.float32:
     return np.float32(_between(lower, upper, place - first))
 
 
-def percentiles_of_counts(numbers: Int, percentiles: Sequence[float]) -> list[float]:
+def percentiles_of_counts(numbers: Int | I16, percentiles: Sequence[float]) -> list[float]:
     """Percentiles of small whole numbers ``(n,)`` from 0 on: how often each occurs is enough.
 
     >>> percentiles_of_counts(np.array([3, 0, 0, 1]), (0, 50, 100))

@@ -1,9 +1,9 @@
 """Window sums of gradient products at chosen pixels: what a structure tensor is made of.
 
 A row of products is needed by the six rows around it, so the last six stay at hand. Every loop runs
-along a row and touches few arrays, each number in float32 and in the same order of sums: whole rows
-are summed down and then sideways, though only some of their pixels are chosen, because many pixels
-at once cost less than one of them alone.
+along a row and touches few arrays, each number in float32 and in the same order of sums: from the
+first chosen pixel of a row to its last one all are summed down and then sideways, because many
+pixels at once cost less than one of them alone.
 """
 
 import numba
@@ -33,7 +33,7 @@ def window_sums(planes: U8, columns: Int, first: Int, window: F32, sums: F32) ->
     recent = np.empty((TAPS, 3 * width), np.float32)
     held = np.full(TAPS, -1)  # the row of which the products are
     falling, rising = np.empty((3, width), np.int16), np.empty((3, width), np.int16)
-    across = np.empty(3 * width, np.float32)
+    across = np.empty(width, np.float32)
     total = np.empty(width - TAPS + 1, np.float32)
     for target in range(height):
         begin, end = first[target], first[target + 1]
@@ -43,21 +43,33 @@ def window_sums(planes: U8, columns: Int, first: Int, window: F32, sums: F32) ->
             if held[row % TAPS] != row:
                 _products(planes, row, falling, rising, recent[row % TAPS])
                 held[row % TAPS] = row
-        _downwards(
-            recent[target % TAPS],
-            recent[(target + 1) % TAPS],
-            recent[(target + 2) % TAPS],
-            recent[(target + 3) % TAPS],
-            recent[(target + 4) % TAPS],
-            recent[(target + 5) % TAPS],
-            window,
-            across,
-        )
+        left, right = _first_and_end(columns[begin:end])
         for product in range(3):
-            _sideways(across[product * width : (product + 1) * width], window, total)
+            some = slice(product * width + left, product * width + right + TAPS - 1)
+            _downwards(
+                recent[target % TAPS, some],
+                recent[(target + 1) % TAPS, some],
+                recent[(target + 2) % TAPS, some],
+                recent[(target + 3) % TAPS, some],
+                recent[(target + 4) % TAPS, some],
+                recent[(target + 5) % TAPS, some],
+                window,
+                across[left : right + TAPS - 1],
+            )
+            _sideways(across[left : right + TAPS - 1], window, total[left:right])
             own = sums[product]
             for pixel in range(np.uintp(begin), np.uintp(end)):
                 own[pixel] = total[columns[pixel]]
+
+
+@numba.njit(cache=True, nogil=True)
+def _first_and_end(columns: Int) -> tuple[int, int]:
+    """The first of some columns, and the one after the last."""
+    left = right = columns[0]
+    for place in range(len(columns)):
+        left = min(left, columns[place])
+        right = max(right, columns[place])
+    return left, right + 1
 
 
 @numba.njit(cache=True, nogil=True)

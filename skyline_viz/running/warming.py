@@ -5,18 +5,20 @@ code. Of several processes that come to it at once, one compiles and the others 
 """
 
 import contextlib
-import sys
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numba.core import event
+from numba.core.registry import cpu_target
+from numba.core.runtime import rtsys
 
 from skyline_viz.detector import Detector
 from skyline_viz.system.memory import loading
 from skyline_viz.system.notes import note
+from skyline_viz.system.stand_ins import without
 
 COMPILING = (
     "The detector's loops are compiled, which takes some seconds; later runs find them done."
@@ -25,6 +27,8 @@ COMPILING = (
 
 _LONGEST = 120.0  # seconds to wait for another process that compiles
 _BLAS = "scipy.linalg.cython_blas"
+"""Numba looks whether there is one, which takes five times as long as detecting. Our loops hold no
+matrix products."""
 
 
 @cache
@@ -34,7 +38,8 @@ def warm_up() -> None:
     photo[16:] = 50
     with (
         loading(),
-        _without_blas(),
+        without(_BLAS),
+        _without_compiler(),
         contextlib.ExitStack() as until_done,
         event.install_listener("numba:compile", _Compiling(until_done)),
     ):
@@ -50,6 +55,7 @@ class _Compiling(event.Listener):  # type: ignore[misc]  # numba has no types
 
     def on_start(self, event: Any) -> None:  # noqa: ANN401
         """Say so, and wait until no other process compiles; what it has done is found then."""
+        _restore_compiler()
         if self.begun:
             return
         self.begun = True
@@ -66,16 +72,20 @@ class _Compiling(event.Listener):  # type: ignore[misc]  # numba has no types
 
 
 @contextlib.contextmanager
-def _without_blas() -> Iterator[None]:
-    """Keep numba from importing scipy.linalg, which takes five times as long as detecting.
+def _without_compiler() -> Iterator[None]:
+    """Keep numba from loading what only its compiler needs, which takes as long as four detections.
 
-    It looks whether there is one when it loads its first loop. Ours hold no matrix products.
+    It loads that whenever it looks for a kept loop, and again when it compiles one. A kept loop
+    needs no more of it than what hands out memory.
     """
-    if _BLAS in sys.modules:
-        yield
-        return
-    sys.modules[_BLAS] = None  # type: ignore[assignment]  # as Python marks what is not there
+    context = cpu_target.target_context
+    context.refresh = partial(rtsys.initialize, context)  # hides the method of its class
     try:
         yield
     finally:
-        del sys.modules[_BLAS]
+        _restore_compiler()
+
+
+def _restore_compiler() -> None:
+    """Let numba load all of its compiler the next time that it wants to."""
+    vars(cpu_target.target_context).pop("refresh", None)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -19,7 +18,8 @@ import rerun as rr
 from skyline_viz.arrays import Bool, Int
 from skyline_viz.skyline import Skyline
 from skyline_viz.stage import Quantity
-from skyline_viz.viewer.value_maps import COARSE, FINE, ValueMap, classes_of, value_range
+from skyline_viz.system.memory import give_back
+from skyline_viz.viewer.value_maps import FINE, ValueMap, classes_of, value_range
 
 NEAR_PIXELS = 600_000
 """Pixels that are kept exactly, all lines together: 36 bytes each make 22 MB."""
@@ -46,8 +46,8 @@ class Sampled:
 class Near:
     """The pixels of a photo that are near some lines."""
 
-    mask: Bool
-    """``(H, W)`` whether a pixel is near."""
+    shape: tuple[int, int]
+    """Height and width of the photo."""
 
     around: int
     """Rows above and below each line that are near."""
@@ -75,50 +75,51 @@ class Near:
             last = np.clip(rows + around, -1, height - 1).astype(np.intp)
             for column, (begin, end) in enumerate(zip(first.tolist(), last.tolist(), strict=True)):
                 mask[column, begin : end + 1] = True
-        upright = np.ascontiguousarray(mask.T)
-        places = np.flatnonzero(upright)
+        places = np.flatnonzero(mask.T)
         return cls(
-            upright,
+            shape,
             around,
             (places // width).astype(np.int32),
             (places % width).astype(np.int32),
         )
 
+    @property
+    def mask(self) -> Bool:
+        """``(H, W)`` whether a pixel is near. It is made each time, and not kept."""
+        made: Bool = np.zeros(self.shape, np.bool_)
+        made[self.rows, self.columns] = True
+        return made
+
     def sample(self, values: Sampler) -> Sampled:
         """Values of one pixel of each block, and of the near pixels."""
-        rows, columns = (_middles(length) for length in self.mask.shape)
+        rows, columns = (_middles(length) for length in self.shape)
         blocks = values(np.repeat(rows, len(columns)), np.tile(columns, len(rows)))
         return Sampled(blocks.reshape(len(rows), len(columns)), values(self.rows, self.columns))
 
     def map(self, quantity: Quantity, sampled: Sampled, levels: int) -> ValueMap:
-        """The map of a whole photo; it holds until the next one is asked for.
+        """The map of a whole photo.
 
         Args:
             quantity: What the values are.
             sampled: The values; NaN is none.
             levels: Values to tell apart.
         """
-        height, width = self.mask.shape
+        height, width = self.shape
         known = (one[np.isfinite(one)] for one in (sampled.blocks, sampled.exact))
         low, high = value_range(quantity, *known)
         wide = classes_of(sampled.blocks, low, high, levels).repeat(BLOCK, axis=1)[:, :width]
-        classes = self._classes if levels > COARSE else np.empty((height, width), wide.dtype)
+        classes = np.empty((height, width), wide.dtype)
         for row, line in enumerate(wide):
             classes[row * BLOCK : (row + 1) * BLOCK] = line
         classes[self.rows, self.columns] = classes_of(sampled.exact, low, high, levels)
         return ValueMap(classes, levels, quantity, low, high)
-
-    @cached_property
-    def _classes(self) -> npt.NDArray[np.unsignedinteger[Any]]:
-        """Room for one map, used again: fresh memory of this size is not given back for long."""
-        return np.empty(self.mask.shape, np.uint16)
 
     def log(
         self, recording: rr.RecordingStream, entity: str, quantity: Quantity, sampled: Sampled
     ) -> None:
         """Log a map, and beside it the exact values of the near pixels, row by row."""
         self.map(quantity, sampled, FINE).log(recording, entity)
-        recording.flush()  # a map of a large photo is not to wait for the next one
+        let_go(recording)
         recording.log(entity, rr.AnyValues(exact=sampled.exact))
 
     def said(self) -> str:
@@ -127,6 +128,15 @@ class Near:
             f"Maps hold every pixel within {self.around} rows of a line, and elsewhere one of each "
             f"{BLOCK} by {BLOCK}; of edge pixels elsewhere those that are cheapest in their column."
         )
+
+
+def let_go(recording: rr.RecordingStream) -> None:
+    """Have a map of a large photo written, and its memory given back, before the next one is made.
+
+    What was freed has to go each time: the next map is put where the last ones were.
+    """
+    recording.flush()
+    give_back()
 
 
 def _middles(length: int) -> Int:

@@ -32,7 +32,7 @@ from skyline_viz.files import replacing
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.stage import DETOUR, Quantity
 from skyline_viz.system.endings import held_back
-from skyline_viz.system.memory import FULL_MEGAPIXELS, give_back
+from skyline_viz.system.memory import FULL_MEGAPIXELS
 from skyline_viz.system.names import printable, recording_id, shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_recording import log_filter_bank
@@ -40,7 +40,7 @@ from skyline_viz.viewer.blueprints import detection_blueprint, stages_blueprint
 from skyline_viz.viewer.column_views import TRUTH_RADIUS, log_columns, log_line, log_series
 from skyline_viz.viewer.contents import Contents, Fidelity
 from skyline_viz.viewer.documents import markdown_document
-from skyline_viz.viewer.near import Near
+from skyline_viz.viewer.near import Near, let_go
 from skyline_viz.viewer.pixel_recording import log_pixels, opening_column
 from skyline_viz.viewer.program.rerun_file import saved
 from skyline_viz.viewer.program.rerun_internals import let_go_of_orphans
@@ -133,7 +133,7 @@ def log_detection(
         shown |= near.mask[detection.edge_rows, detection.edge_columns]
     recording.log(at(entities.PHOTO), _encoded(photo, fidelity))
     if near:
-        recording.flush()  # a large photo is not to wait for maps as large
+        let_go(recording)  # a large photo is not to wait for maps as large
     count = log_maps(recording, at, detection, shown, near)
     unsure = detection.uncertainty()  # while the maps above are being compressed
     verdict = Verdict.of(detection.skyline, unsure.margins, height, truth)
@@ -200,8 +200,8 @@ def _near(
     if height * width <= FULL_MEGAPIXELS * 1e6:
         return None
     near = Near.to((height, width), detection.skyline, truth)
-    give_back()  # what finding the line took, and Rerun is to have
     recording.log(at(entities.EXACT), encoded_edges(near.mask))
+    let_go(recording)  # of what finding the line took, too
     return near
 
 

@@ -36,7 +36,7 @@ from skyline_viz.stage import (
 from skyline_viz.terms import Term
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.map_aids import log_broad, log_broad_edges, log_fade, log_scale
-from skyline_viz.viewer.near import Near, Sampler
+from skyline_viz.viewer.near import Near, Sampler, let_go
 from skyline_viz.viewer.value_maps import (
     BANDS,
     COARSE,
@@ -113,6 +113,8 @@ def log_maps(
             if dense is not None and stage.quantity == STRENGTH:
                 veil = dense_map(STRENGTH, dense, COARSE)
                 _log_fade(recording, at(entities.ORIENTATION), veil)
+            if near:
+                let_go(recording)
     if full:
         recording.log(at(entities.EDGE_PIXELS), rr.AnyValues(True, **table))
         log_terms(recording, at, detection, near)
@@ -189,6 +191,7 @@ def log_terms(
             added = paid.copy() if added is None else added + paid
         paid[paid == 0] = np.nan
         log_whole(recording, at, of_term(term.name), paid, near)
+        del paid
     if added is not None:
         log_whole(recording, at, ADDED, added, near)
 
@@ -229,7 +232,7 @@ def log_whole(
     entity = at(entities.of_quantity(quantity))
     if near:
         near.map(quantity, near.sample(places_of(values)), COARSE).log(recording, entity)
-        recording.flush()
+        let_go(recording)
     else:
         dense_map(quantity, values, COARSE).log(recording, entity)
 

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skyline_viz.kernels.eigen import doubled, strengths, to_degrees
+from skyline_viz.kernels.eigen import to_degrees, without_angle
 from testing.examples import examples
 
 
@@ -22,9 +22,8 @@ def test_features_are_those_of_numpy(seed, count, scale):
     half_gap = np.sqrt(np.square((txx - tyy) * half) + np.square(txy))
     large = np.sqrt(half_trace + half_gap)
     small = np.sqrt(np.maximum(half_trace - half_gap, 0))
-    strength, coherence, sine, cosine = np.empty((4, count), np.float32)
-    strengths(txx, txy, tyy, strength, coherence)
-    doubled(txx, txy, tyy, sine, cosine)
+    strength, coherence, sine, cosine = found = np.empty((4, count), np.float32)
+    without_angle(txx, txy, tyy, *found)
     assert np.array_equal(strength, large)
     assert np.array_equal(coherence, (large - small) / np.maximum(large + small, np.float32(1e-12)))
     assert np.array_equal(sine, 2 * txy)

@@ -38,7 +38,7 @@ def plainly(planes, rows, columns):
 )
 def test_sums_are_those_of_numpy_to_the_bit(height, width, seed, share):
     rng = np.random.default_rng(seed)
-    planes = padded_planes(rng.integers(0, 256, (height, width, 3), dtype=np.uint8), 3)
+    planes = padded_planes(rng.integers(0, 256, (height, width, 3), dtype=np.uint8))
     rows, columns = (
         one.astype(np.int32) for one in np.nonzero(rng.random((height, width)) < share)
     )

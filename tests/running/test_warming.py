@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 from filelock import FileLock
+from numba.core.registry import cpu_target
 
 from skyline_viz.detector import Detector
 from skyline_viz.running import warming
@@ -71,6 +72,29 @@ def test_loops_are_compiled_where_nothing_can_be_kept(compiling):
     compiling.data["dispatcher"].stats.cache_path = "/dev/null/kept"
     with ExitStack() as until_done:
         warming._Compiling(until_done).on_start(compiling)
+
+
+def test_loops_are_loaded_without_the_compiler_and_others_can_be_compiled_later():
+    program = """
+import sys
+from skyline_viz.running.warming import warm_up
+warm_up()
+assert "numba.np.npyimpl" not in sys.modules
+import numba
+import numpy as np
+assert numba.njit(lambda values: np.sqrt(values).sum())(np.full(3, 4.0)) == 6
+assert "numba.np.npyimpl" in sys.modules
+"""
+    warm_up()  # they are kept, whoever comes first
+    subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_what_is_compiled_finds_the_compiler(compiling):
+    context = cpu_target.target_context
+    with ExitStack() as until_done, warming._without_compiler():
+        assert "refresh" in vars(context)
+        warming._Compiling(until_done).on_start(compiling)
+        assert "refresh" not in vars(context)
 
 
 def test_loops_are_loaded_without_scipy_and_it_can_be_imported_later():
