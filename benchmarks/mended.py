@@ -113,6 +113,8 @@ def _misses(left_out: LeftOut, variant: Variant, source: Source) -> Iterator[Dia
     (results,) = evaluate(source.items, detector, workers=0).results.values()
     gross = {one.name for one in results if one.gross_miss}
     missed = [item for item in source.items if item.name in gross]
+    if not missed:
+        return
     methods: list[Method] = [detector]
     (tasks,) = assign(missed, methods, None).tasks.values()
     found, failures = diagnose_photos(tasks, workers=0)

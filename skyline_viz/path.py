@@ -250,41 +250,6 @@ def cross(before: F64, reach: int, link_weight: float, after: F64) -> None:
             after[row] = min(after[row], up)
 
 
-def back_pointers(forward: F64, delta: int, link_weight: float) -> Int:
-    """From which row of the column before the cheapest way to each pixel comes.
-
-    Args:
-        forward: ``(H, W)`` forward costs, `forward_costs`.
-        delta: Largest change of row between neighbouring columns, in pixels.
-        link_weight: Cost of one pixel of row change.
-
-    Returns:
-        ``(H, W)`` int32 that row less the pixel's own; 0 in the first column.
-
-    Examples:
-        >>> forward = forward_costs(np.array([[5.0, 1.0], [0.0, 1.0]]), 1, 0.5)
-        >>> back_pointers(forward, 1, 0.5)[:, 1]
-        array([1, 0], dtype=int32)
-    """
-    height, width = forward.shape
-    reach = np.full(max(width - 1, 0), min(int(delta), height - 1), np.int32)
-    changes = np.zeros((width, height), np.int32)
-    _point_back(np.ascontiguousarray(forward.T), reach, float(link_weight), changes)
-    return changes.T
-
-
-@numba.njit(cache=True, nogil=True)
-def _point_back(table: F64, reach: Int, link_weight: float, changes: Int) -> None:
-    """Fill ``(W, H)`` `changes` as `trace` walks, from every pixel a step to the left."""
-    width, height = table.shape
-    rows = np.empty(width, np.int32)
-    for column in range(1, width):
-        for row in range(height):
-            rows[column] = row
-            trace(table, reach, link_weight, rows, column, column - 1)
-            changes[column, row] = rows[column - 1] - row
-
-
 @numba.njit(cache=True, nogil=True)
 def min_marginals(forward: F64, backward: F64, costs: F32, through: F64) -> None:
     """Min-marginals of a column: forward and backward cost less what is in both of them.

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from skyline_viz.constraints import Anchor, Constraints, PathError, StraightSpan
-from skyline_viz.path import back_pointers, forward_costs, margins, path_tables, shortest_path
+from skyline_viz.path import forward_costs, margins, path_tables, shortest_path
 from testing.examples import examples
 
 STEADY = examples(150)
@@ -315,16 +315,3 @@ def test_a_column_of_infinite_costs_admits_no_path(find, column):
     cost[:, column] = INF
     with pytest.raises(PathError, match="from the left edge to the right edge"):
         find(cost, 1, 0)
-
-
-@given(st.integers(0, 3), st.sampled_from([0.0, 0.1, 0.7]), st.integers(0, 1000))
-def test_back_pointers_lead_along_the_cheapest_way_to_every_pixel(delta, weight, seed):
-    cost = np.random.default_rng(seed).integers(0, 4, (6, 5)).astype(np.float32)
-    forward = forward_costs(cost, delta, weight)
-    back = back_pointers(forward, delta, weight)
-    rows = np.arange(6)
-    assert not back[:, 0].any()
-    assert np.abs(back).max() <= delta
-    for column in range(1, 5):
-        came = forward[rows + back[:, column], column - 1] + weight * np.abs(back[:, column])
-        np.testing.assert_allclose(forward[:, column], came + cost[:, column])

@@ -14,9 +14,9 @@ import numpy.typing as npt
 import rerun as rr
 
 from skyline_viz.arrays import F32, U8, Bool, Int
+from skyline_viz.certainty.search_tables import search_tables
 from skyline_viz.colours import Colour
 from skyline_viz.detection import Detection
-from skyline_viz.path import back_pointers
 from skyline_viz.skyline import Skyline
 from skyline_viz.stage import (
     ADDED,
@@ -188,7 +188,7 @@ def log_terms(
     for term in shown_terms(detection):
         paid = term.map()
         if term.paid_by == "all":
-            added = paid.copy() if added is None else added + paid
+            added = paid.copy() if added is None else np.add(added, paid, out=added)
         paid[paid == 0] = np.nan
         log_whole(recording, at, of_term(term.name), paid, near)
         del paid
@@ -203,13 +203,13 @@ def log_search(
     near: Near | None = None,
 ) -> None:
     """Log what the search for the path has found at each pixel, see `SEARCH`."""
-    forward = detection.forward
-    above = (forward - forward.min(axis=0)).astype(np.float32)
-    log_whole(recording, at, FORWARD, above, near)
-    back = back_pointers(forward, detection.delta, detection.link_weight).astype(np.float32)
-    reach = float(np.abs(back).max(initial=1.0))
-    log_whole(recording, at, replace(BACK, low=-reach, high=reach), back, near)
-    paid = np.abs(back, out=back) * np.float32(detection.link_weight)
+    tables = search_tables(detection.cost, detection.delta, detection.link_weight)
+    log_whole(recording, at, FORWARD, tables.above, near)
+    back = tables.back
+    del tables
+    reach = max(-int(back.min()), int(back.max()), 1)
+    log_whole(recording, at, replace(BACK, low=-reach, high=reach), back.astype(np.float32), near)
+    paid = np.abs(back) * np.float32(detection.link_weight)
     log_whole(recording, at, LINK, paid, near)
 
 
