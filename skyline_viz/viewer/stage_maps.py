@@ -36,7 +36,7 @@ from skyline_viz.stage import (
 from skyline_viz.terms import Term
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.map_aids import log_broad, log_broad_edges, log_fade, log_scale
-from skyline_viz.viewer.near import Near, Sampler, let_go
+from skyline_viz.viewer.near import Near, Sampled, Sampler, let_go
 from skyline_viz.viewer.value_maps import (
     BANDS,
     COARSE,
@@ -182,14 +182,16 @@ def log_terms(
 ) -> None:
     """Log what each pixel pays for each term of the nodal cost, and for our own together.
 
-    Nothing is shown where a pixel pays nothing.
+    Of a term that edge pixels alone can pay nothing is shown elsewhere.
     """
-    added: F32 | None = None
+    none, edges = np.float32(np.nan), kept_of(detection.edges, near)
+    added: F32 | Sampled | None = None
     for term in shown_terms(detection):
-        paid = term.map()
+        paid = kept_of(term.map(), near)
         if term.paid_by == "all":
-            added = paid.copy() if added is None else np.add(added, paid, out=added)
-        paid[paid == 0] = np.nan
+            added = paid if added is None else each(np.add, added, paid)
+        if term.paid_by == "edges":
+            paid = each(lambda costs, is_edge: np.where(is_edge, costs, none), paid, edges)
         log_whole(recording, at, of_term(term.name), paid, near)
         del paid
     if added is not None:
@@ -204,20 +206,23 @@ def log_search(
 ) -> None:
     """Log what the search for the path has found at each pixel, see `SEARCH`."""
     tables = search_tables(detection.cost, detection.delta, detection.link_weight)
-    log_whole(recording, at, FORWARD, tables.above, near)
-    back = tables.back
+    back = kept_of(tables.back, near)
+    above = kept_of(tables.above, near)
+    reach = max(-int(tables.back.min()), int(tables.back.max()), 1)
     del tables
-    reach = max(-int(back.min()), int(back.max()), 1)
-    log_whole(recording, at, replace(BACK, low=-reach, high=reach), back.astype(np.float32), near)
-    paid = np.abs(back) * np.float32(detection.link_weight)
-    log_whole(recording, at, LINK, paid, near)
+    log_whole(recording, at, FORWARD, above, near)
+    del above
+    rows = each(lambda steps: steps.astype(np.float32), back)
+    log_whole(recording, at, replace(BACK, low=-reach, high=reach), rows, near)
+    weight = np.float32(detection.link_weight)
+    log_whole(recording, at, LINK, each(lambda steps: np.abs(steps) * weight, rows), near)
 
 
 def log_whole(
     recording: rr.RecordingStream,
     at: Callable[[str], str],
     quantity: Quantity,
-    values: F32,
+    values: F32 | Sampled,
     near: Near | None,
 ) -> None:
     """Log a map ``(H, W)``, of a large photo only as much as is kept of it.
@@ -226,15 +231,29 @@ def log_whole(
         recording: Where to.
         at: Gives the full path of an entity.
         quantity: What the values are.
-        values: ``(H, W)``; NaN is none.
+        values: ``(H, W)``, or what is kept of it; NaN is none.
         near: What is kept exactly of a large photo.
     """
     entity = at(entities.of_quantity(quantity))
+    kept: Any = values if isinstance(values, Sampled) else kept_of(values, near)
     if near:
-        near.map(quantity, near.sample(places_of(values)), COARSE).log(recording, entity)
+        near.map(quantity, kept, COARSE).log(recording, entity)
         let_go(recording)
     else:
-        dense_map(quantity, values, COARSE).log(recording, entity)
+        dense_map(quantity, kept, COARSE).log(recording, entity)
+
+
+def kept_of(whole: npt.NDArray[Any], near: Near | None) -> Any:  # noqa: ANN401
+    """A map ``(H, W)`` itself, or what is kept of it if it is that of a large photo."""
+    return near.sample(places_of(whole)) if near else whole
+
+
+def each(how: Callable[..., npt.NDArray[Any]], *maps: Any) -> Any:  # noqa: ANN401
+    """What becomes of maps of a photo, whether they are whole or what is kept of them."""
+    if isinstance(maps[0], Sampled):
+        blocks = how(*(one.blocks for one in maps))
+        return Sampled(blocks, how(*(one.exact for one in maps)))
+    return how(*maps)
 
 
 def places_of(whole: npt.NDArray[np.floating[Any]]) -> Sampler:
