@@ -16,6 +16,7 @@ import numpy as np
 
 from annotate.engine.guide import thinned
 from annotate.engine.live_wire import LiveWire
+from annotate.engine.opinions import opinions
 from benchmarks.left_out import LeftOut, Models, Variant
 from benchmarks.sources import RENDERED, Source, sources
 from benchmarks.table import markdown
@@ -119,7 +120,8 @@ def measured(data: Path, folder: Path | None) -> str:
             off
             for source in given
             if (detector := left_out.detector(Variant(name, config, models), source.place))
-            for off in _nearest(source, detector)
+            and (sky := models(source.place))  # for second opinions, where the detector has none
+            for off in _nearest(source, replace(detector, sky=sky))
         ]
         shares = [str(sum(one <= part for one in near)) for part in (0.01, 0.02)]
         held.append([name, str(len(near)), *shares])
@@ -160,9 +162,11 @@ def _nearest(source: Source, detector: Detector) -> list[float]:
     """Of each gross miss: A_err of the best of the numbered lines, as a part of the height."""
     found = []
     for item in source.items:
-        wire, truth = LiveWire(item.photo(), detector), item.truth()
+        photo, truth = item.photo(), item.truth()
+        wire = LiveWire(photo, detector)
         if np.nanmean(column_errors(wire.skyline, truth)) > GROSS * wire.height:
-            lines = [Skyline(rows=one.rows) for one in wire.alternatives()]
+            second = opinions(detector, photo)
+            lines = [Skyline(rows=one.rows) for one in wire.alternatives(second)]
             errors = [np.nanmean(column_errors(one, truth)) for one in lines]
             found.append(min(errors, default=np.inf) / wire.height)
     return found

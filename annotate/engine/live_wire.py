@@ -29,7 +29,7 @@ from annotate.engine.plan import Plan, Run, make_plan
 from annotate.engine.steering import Ground, Left
 from annotate.engine.tables import BACKWARD, FORWARD, Tables
 from skyline_viz.arrays import F32, F64, U8, Int, check_photo
-from skyline_viz.certainty.other_lines import OtherLine, other_lines
+from skyline_viz.certainty.other_lines import OtherLine, beside, other_lines, unlike
 from skyline_viz.constraints import Anchor, PathError, StraightSpan
 from skyline_viz.detection import Detection
 from skyline_viz.method import Method
@@ -276,13 +276,20 @@ class LiveWire:
         edits = self._edits.guide(points, radius, times)
         return self._line(self._guided(edits, self._planned(edits)))
 
-    def alternatives(self, most: int = 4) -> list[OtherLine]:
-        """Whole lines along other ridges under what has been asked for, the cheapest first."""
+    def alternatives(self, second: Iterable[Int] = (), most: int = 4) -> list[OtherLine]:
+        """Whole lines along other ridges: second opinions first, then the cheapest of its own.
+
+        Args:
+            second: Rows ``(W,)`` of lines that others have found, see `opinions`.
+            most: How many at the most.
+        """
         if self._rows is None or self.blind:
             return []
         cost, constraints = self._tables.costs_for(self._plan), self._plan.constraints(self._delta)
         weight = self._tables.link_weight
-        return other_lines(cost, self._delta, weight, self._rows, constraints, most)
+        theirs = beside(cost, weight, self._rows, second)
+        own = other_lines(cost, self._delta, weight, self._rows, constraints, most)
+        return unlike([*theirs, *own], self.height, most)
 
     def refresh(self, plan: Plan | None = None) -> None:
         """Bring the tables up to date: what would else be done when the next question is asked."""

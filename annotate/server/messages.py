@@ -341,7 +341,7 @@ class ShownAlternative(BaseModel):
 
 
 class Alternatives(BaseModel):
-    """Lines along other ridges, the cheapest first."""
+    """Lines along other ridges: second opinions, then the cheapest ones."""
 
     alternatives: list[ShownAlternative]
 

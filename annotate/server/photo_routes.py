@@ -68,10 +68,11 @@ def guide(bench: Bench, photo: PhotoId, stroke: Rough) -> Part:
 
 @router.get("/alternatives")
 def alternatives(bench: Bench, photo: PhotoId) -> Alternatives:
-    """Whole lines along other ridges."""
+    """Whole lines along other ridges: second opinions first, then the cheapest ones."""
     session = bench.session(photo)
+    second = session.opinions
     with session.lock:
-        found = session.wire.alternatives()
+        found = session.wire.alternatives(second)
     return Alternatives(alternatives=[ShownAlternative.of(one) for one in found])
 
 

@@ -8,6 +8,7 @@ from time import sleep
 
 from annotate.engine.edits import EditError, Edits
 from annotate.engine.live_wire import LiveWire
+from annotate.engine.opinions import opinions
 from annotate.store.kept_states import Request, StaleError
 from annotate.store.label_table import require_fit
 from annotate.store.lines import Line
@@ -27,7 +28,7 @@ from annotate.store.operations import (
     Undo,
 )
 from annotate.store.store import Photo, Store
-from skyline_viz.arrays import F64, U8
+from skyline_viz.arrays import F64, U8, Int
 from skyline_viz.constraints import PathError
 from skyline_viz.method import Method
 from skyline_viz.methods.registry import method_digest
@@ -80,6 +81,11 @@ class Session:
     def content(self) -> str:
         """What the open pixels are known by, `identity.pixel_digest`."""
         return self._opened.known
+
+    @cached_property
+    def opinions(self) -> list[Int]:
+        """Rows ``(W,)`` of the lines that two other detectors find; made when first asked for."""
+        return [] if self.blind else list(opinions(self.detector, self.pixels))
 
     @cached_property
     def proposer(self) -> str:

@@ -11,6 +11,7 @@ that were found, one after the other is taken that is cheap and far from those b
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -100,6 +101,48 @@ def other_lines(
             break
         taken.append(found[best])
     return sorted(taken, key=lambda one: one.detour)
+
+
+def beside(
+    cost: npt.NDArray[np.floating], link_weight: float, rows: Int, others: Iterable[Int]
+) -> list[OtherLine]:
+    """Lines that came from elsewhere, in the costs of the first line.
+
+    Args:
+        cost: ``(H, W)`` nodal costs; ``inf`` forbids a pixel.
+        link_weight: Cost of one pixel of row change.
+        rows: ``(W,)`` the first line.
+        others: Rows ``(W,)`` of the others.
+
+    Returns:
+        Those of them that visit no forbidden pixel. They may be cheaper than the first line, if its
+        search was not free.
+    """
+    ridge = max(APART, len(cost) // _RIDGE)
+    least = _price(cost, link_weight, rows)
+    told = []
+    for one in others:
+        detour = max(_price(cost, link_weight, one) - least, 0.0)
+        if np.isfinite(detour):
+            told.append(OtherLine(one, detour, _distance(one, rows, ridge)))
+    return told
+
+
+def unlike(lines: Iterable[OtherLine], height: int, most: int) -> list[OtherLine]:
+    """The first lines that follow other ridges than the first line, and than each other.
+
+    Args:
+        lines: Lines, in the order of how much they are wanted.
+        height: Rows of the photo.
+        most: How many at the most.
+    """
+    ridge = max(APART, height // _RIDGE)
+    taken: list[OtherLine] = []
+    for one in lines:
+        away = [one.apart, *(_distance(one.rows, other.rows, ridge) for other in taken)]
+        if min(away) >= _LEAST and len(taken) < most:
+            taken.append(one)
+    return taken
 
 
 def _found(

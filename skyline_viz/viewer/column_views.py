@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -34,6 +35,7 @@ STRIP_MARGINS = (4.0, 2.0, 1.0, 0.5, 0.25)
 
 _ERROR, _MARGIN, _COST = (0xA0, 0x6E, 0x00), (0x3C, 0x7C, 0xA0), (0x7C, 0x7C, 0x7C)
 _LINK = (0xB0, 0xB0, 0xB0)
+_DASHES = 80  # and gaps, across a photo
 _LEAST_SHARE = 0.01  # of what truth and path pay differently, for a term to have a curve
 _LIGHT_ERROR, _LIGHT_MARGIN, _LIGHT_COST = (  # lines are read on black, areas by their height
     (0xE6, 0xA5, 0x2A),
@@ -48,8 +50,10 @@ def log_line(
     skyline: Skyline,
     colour: Colour,
     radius: float = LINE_RADIUS,
+    *,
+    dashed: bool = False,
 ) -> None:
-    """Log a skyline with its dark halo; where it is not visible there is a gap.
+    """Log a skyline with its dark halo; where it is not visible there is a gap, or dashes.
 
     Args:
         recording: Where to.
@@ -58,8 +62,13 @@ def log_line(
         colour: Its colour.
         radius: Half its width. Where lines agree, the thin one lies on the wide one, so that
             both show.
+        dashed: Whether what is found but not visible is drawn in thin dashes, ``hidden`` below it.
     """
     strokes = line_strips(skyline)
+    if dashed:
+        unseen = dashes(line_strips(replace(skyline, visible=~skyline.visible)), skyline.width)
+        thin = rr.LineStrips2D(unseen, colors=[colour], radii=[-1.0], draw_order=29.0)
+        recording.log(f"{entity}/hidden", thin)
     for place, tone, across, order in (
         (f"{entity}/halo", HALO, radius + 1.0, 30.0 - radius),
         (entity, colour, radius, 40.0 - radius),
@@ -73,6 +82,18 @@ def line_strips(skyline: Skyline) -> list[npt.NDArray[np.float32]]:
     centres = np.arange(skyline.width, dtype=np.float32) + np.float32(0.5)
     points = np.column_stack([centres, skyline.rows])
     return [points[first : last + 1] for first, last in runs(skyline.visible)]
+
+
+def dashes(strips: list[npt.NDArray[np.float32]], width: int) -> list[npt.NDArray[np.float32]]:
+    """Every second piece of lines.
+
+    Args:
+        strips: Points ``(m, 2)`` of each, a column apart.
+        width: Columns of the photo, which has so many dashes and gaps together.
+    """
+    dash = max(round(width / _DASHES), 2)
+    starts = [(one, at) for one in strips for at in range(0, len(one), 2 * dash)]
+    return [one[at : at + dash] for one, at in starts]
 
 
 def log_columns(

@@ -15,13 +15,12 @@ from skyline_viz.diagnosis.remedies import Remedy
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.names import named_in_markdown
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.column_views import LINE_RADIUS
+from skyline_viz.viewer.column_views import LINE_RADIUS, dashes
 from skyline_viz.viewer.documents import markdown_document
 
 _FRAME, _MISSED, _STARVED = (0xF5, 0xF5, 0xF5), (0xE6, 0x9F, 0x00), (0x56, 0xB4, 0xE9)
 _NAMED = 3  # segments whose causes are written on the photo, those with the largest total error
 _LEAST_FRAME = 6  # columns that the frame of a segment is wide at least
-_DASHES = 80  # and gaps that the line of a remedy has together
 _SHORT = 45  # letters of flags that are written on the photo
 _MARKED = 70  # the marks of the truth's pixels are this part of the height above it
 _BEYOND = 8  # columns beside a segment in which the counterfactual path is drawn
@@ -107,14 +106,13 @@ def _said(remedy: Remedy) -> tuple[str, ...]:
 def _log_remedy(recording: rr.RecordingStream, remedy: Remedy, line: Skyline) -> None:
     """Draw the line with other settings, in dashes: the proof of the cause is a whole one."""
     points = np.column_stack([np.arange(line.width) + 0.5, line.rows]).astype(np.float32)
-    dash = max(round(line.width / _DASHES), 2)
-    dashes = [points[first : first + dash] for first in range(0, line.width, 2 * dash)]
+    pieces = dashes([points], line.width)
     spelt = remedy.flags if len(remedy.flags) <= _SHORT else "other settings"
     labels = [f"{spelt}: A_err {remedy.a_err:.2f} px"]
-    middle = len(dashes) // 2
+    middle = len(pieces) // 2
     for entity, strips, shown in (
-        (entities.REMEDY, dashes[:middle] + dashes[middle + 1 :], None),
-        (f"{entities.REMEDY}/named", [dashes[middle]], labels),
+        (entities.REMEDY, pieces[:middle] + pieces[middle + 1 :], None),
+        (f"{entities.REMEDY}/named", [pieces[middle]], labels),
     ):
         strip = rr.LineStrips2D(
             strips, colors=[ALTERNATIVE], radii=[-1.5], labels=shown, draw_order=43.0

@@ -143,7 +143,7 @@ def log_detection(
         near.log(recording, at(entities.DETOUR), DETOUR, detour)
     else:
         log_detour(recording, at, detection, unsure.detour, shown)
-    log_line(recording, at(entities.PATH), detection.skyline, PATH)
+    log_line(recording, at(entities.PATH), detection.skyline, PATH, dashed=True)
     if truth:
         log_line(recording, at(entities.TRUTH), truth, TRUTH, TRUTH_RADIUS)
     else:

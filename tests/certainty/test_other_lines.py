@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skyline_viz.certainty.other_lines import other_lines
+from skyline_viz.certainty.other_lines import OtherLine, beside, other_lines, unlike
 from skyline_viz.constraints import Anchor, Constraints
 from skyline_viz.detector import Detector
 from skyline_viz.path import shortest_path
@@ -58,3 +58,19 @@ def test_where_all_is_fixed_there_is_no_other_line():
     cost = np.ones((9, 4), np.float32)
     fixed = Constraints(tuple(Anchor(column, 3) for column in range(4)))
     assert other_lines(cost, 1, 0.1, np.full(4, 3), fixed) == []
+
+
+def test_lines_from_elsewhere_pay_the_costs_of_the_first_and_keep_to_what_is_allowed():
+    cost = np.ones((90, 40), np.float32)
+    cost[20], cost[70, 5] = 0.5, np.inf
+    first, higher, forbidden = (np.full(40, row, np.int32) for row in (20, 10, 70))
+    (told,) = beside(cost, 0.1, first, [higher, forbidden])
+    assert (told.detour, told.apart) == (20, 1)
+    assert beside(cost, 0.1, higher, [first])[0].detour == 0  # cheaper, and not less than nothing
+
+
+def test_of_lines_along_one_ridge_the_first_is_taken():
+    lines = [OtherLine(np.full(40, row, np.int32), 1.0, 1.0) for row in (20, 21, 60, 80, 40)]
+    near = OtherLine(np.full(40, 3, np.int32), 1.0, 0.1)
+    taken = unlike([near, *lines], 90, 3)
+    assert [int(one.rows[0]) for one in taken] == [20, 60, 80]

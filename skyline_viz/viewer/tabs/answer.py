@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import rerun.blueprint as rrb
 
-from skyline_viz.stage import SKY
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
 from skyline_viz.viewer.tabs.views import (
@@ -22,7 +21,8 @@ def skyline_tab(contents: Contents) -> rrb.Container:
     line = photo_view(
         "Where is the line? magenta: path"
         + (", turquoise: truth" if contents.truth else "")
-        + (f", yellow: {contents.compared}" if contents.compared else ""),
+        + (f", yellow: {contents.compared}" if contents.compared else "")
+        + (". Strip: bright where wrong" if contents.truth else ". Strip: bright where unsure"),
         [entities.PHOTO, *with_halos(), entities.STRIP, f"{entities.CHOSEN}/**"],
     )
     report = rrb.TextDocumentView(origin=entities.REPORT, name="Report")
@@ -41,8 +41,7 @@ def photos_tab(contents: Contents) -> rrb.Container:
     """How several photos came out."""
     metrics = [("a_err", "A_err of each photo (px)")] if contents.truth else []
     metrics.append(("margin", "Margin of each photo (cost)"))
-    if SKY in contents.stages:  # without it, nobody can tell
-        metrics.append(("confidence", "Confidence that each photo has a skyline"))
+    metrics.append(("confidence", "Confidence that the line of each photo is the skyline"))
     plots = [
         rrb.TimeSeriesView(origin=f"{entities.METRICS}/{metric}", name=title)
         for metric, title in metrics

@@ -21,8 +21,7 @@ def diagnosis_tab(contents: Contents) -> rrb.Container:
     marks = [f"{entities.SEGMENTS}/**", entities.TRUTH_MISSED, entities.TRUTH_STARVED]
     lines = with_halos([entities.PATH, entities.TRUTH, entities.COUNTERFACTUAL])
     photo = photo_view(
-        "Yellow: the path with its cause made right; dashes: with other settings. Above the truth, "
-        "orange: no edge; blue: starved",
+        "Yellow: cause made right; dashed: other settings; orange: no edge; blue: starved",
         [entities.PHOTO, *lines, *marks],
         whole_photo(contents),
     )
