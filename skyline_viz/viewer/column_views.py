@@ -34,7 +34,7 @@ STRIP_MARGINS = (4.0, 2.0, 1.0, 0.5, 0.25)
 """Margins below which the strip gets brighter, where there is no truth."""
 
 _ERROR, _MARGIN, _COST = (0xA0, 0x6E, 0x00), (0x3C, 0x7C, 0xA0), (0x7C, 0x7C, 0x7C)
-_LINK = (0xB0, 0xB0, 0xB0)
+_LINK = (0xB0, 0x8C, 0xD8)
 _DASHES = 80  # and gaps, across a photo
 _LEAST_SHARE = 0.01  # of what truth and path pay differently, for a term to have a curve
 _LIGHT_ERROR, _LIGHT_MARGIN, _LIGHT_COST = (  # lines are read on black, areas by their height
@@ -171,7 +171,7 @@ def log_series(
         colours = {term.name: term.colour for term in detection.cost_model.terms}
         for name, values in {**apart, "all": everything}.items():
             red, green, blue = bytes.fromhex(colours.get(name, "#FFFFFF")[1:])
-            title = f"{name}: {np.nansum(values):+.1f} in all"
+            title = f"{name} {np.nansum(values):+.1f}"
             place = f"apart/{name.replace(' ', '_')}"
             known[place] = (_smooth(values), title, (red, green, blue))
     for name, (values, title, colour) in known.items():

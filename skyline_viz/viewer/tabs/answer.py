@@ -33,7 +33,7 @@ def _plot(contents: Contents) -> rrb.View:
     if contents.truth:
         return errors_plot(contents)
     if contents.columns and not contents.swept:
-        return series_plot(contents, "margin", "Margin (cost)")
+        return series_plot(contents, "margin", "Margin (cost)", legend=False)
     return bar_plot(entities.MARGINS, "Margin (cost)")
 
 

@@ -22,11 +22,18 @@ def columns_tab(contents: Contents) -> rrb.Container:
     titles = {
         **({"error": "Error (px)"} if contents.truth else {}),
         "margin": "Margin (cost): how much dearer the best other path is",
-        **({"apart": "Truth less path (cost), mean of 9 columns"} if contents.truth else {}),
+        **(
+            {"apart": "Truth less path (cost), mean of 9 columns; sums beside the names"}
+            if contents.truth
+            else {}
+        ),
         "path": "Nodal and link cost of the path",
     }
-    plots = [series_plot(contents, name, title) for name, title in titles.items()]
-    shares = [1.7 if name == "apart" else 1.1 for name in titles]
+    plots = [
+        series_plot(contents, name, title, legend=name in ("apart", "path"))
+        for name, title in titles.items()
+    ]
+    shares = [2.4 if name == "apart" else 1.0 for name in titles]
     photo = chosen_view(contents)
     if is_wide(contents):
         return rrb.Vertical(photo, *plots, row_shares=[1.6, *shares], name="Columns")

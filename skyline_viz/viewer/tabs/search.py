@@ -13,7 +13,10 @@ from skyline_viz.viewer.tabs.views import lines_of, map_view, photo_view, with_h
 def search_tab(contents: Contents) -> rrb.Container:
     """The maps of the search; with one photo the best other lines above them, and what they pay."""
     drawn = lines_of(contents)
-    maps = [map_view(contents, one.title, [entities.of_quantity(one)], drawn) for one in SEARCH]
+    maps = [  # in short, for there is little room; the docs say what they are
+        map_view(contents, one.title.split(":")[0], [entities.of_quantity(one)], drawn)
+        for one in SEARCH
+    ]
     rows = [rrb.Horizontal(*maps[:2]), rrb.Horizontal(*maps[2:])]
     if not contents.other_lines:
         return rrb.Vertical(*rows, name="Search")
@@ -25,5 +28,5 @@ def search_tab(contents: Contents) -> rrb.Container:
     if contents.width > 1.6 * contents.height:
         head = rrb.Horizontal(lines, table)
         return rrb.Vertical(head, *rows, row_shares=[4, 3, 3], name="Search")
-    side = rrb.Vertical(table, *rows, row_shares=[5, 6, 6])
+    side = rrb.Vertical(table, *rows, row_shares=[7, 7, 7])
     return rrb.Horizontal(lines, side, name="Search")

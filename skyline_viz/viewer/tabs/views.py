@@ -151,26 +151,27 @@ def bar_plot(entity: str, title: str) -> rrb.View:
     return rrb.BarChartView(origin=entity, name=title, plot_legend=legend)
 
 
-def series_plot(contents: Contents, series: str, title: str) -> rrb.View:
+def series_plot(contents: Contents, series: str, title: str, *, legend: bool = True) -> rrb.View:
     """A plot along the columns, with a cursor; its axis is that of all such plots.
 
     Args:
         contents: What the recording holds, which opens on another timeline where it is swept.
         series: What is below `entities.SERIES`.
         title: What it shows.
+        legend: Whether its curves are named.
     """
     return rrb.TimeSeriesView(
         origin=f"{entities.SERIES}/{series}",
         name=title + (f"; choose the timeline {entities.COLUMN}" if contents.swept else ""),
         axis_x=rrb.TimeAxis(link=rrb.components.LinkAxis.LinkToGlobal),
-        plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.RightTop),
+        plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.RightTop, visible=legend),
     )
 
 
 def errors_plot(contents: Contents) -> rrb.View:
     """The error of each column."""
     if contents.columns and not contents.swept:
-        return series_plot(contents, "error", "Error (px) in each column")
+        return series_plot(contents, "error", "Error (px) in each column", legend=False)
     return bar_plot(entities.ERRORS, "Error (px) in each column")
 
 

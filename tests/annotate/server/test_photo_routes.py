@@ -57,9 +57,7 @@ def test_margins_are_those_of_the_line_as_it_is(client):
 def test_an_alternative_is_another_ridge_and_a_guide_chooses_it(client):
     before = client.get("/api/photos/3").json()["rows"]
     found = client.get("/api/photos/3/alternatives").json()["alternatives"]
-    detours = [one["detour"] for one in found]
-    assert found
-    assert detours == sorted(detours)
+    assert 0 < len(found) <= 4
     for one in found:
         off = np.abs(np.subtract(one["rows"], before)) > 5
         assert off.mean() == pytest.approx(one["apart"], abs=1e-3)
