@@ -82,12 +82,16 @@ def column_counts(mask: Bool) -> Int:
 def column_ends(mask: Bool) -> tuple[Int, Int]:
     """First and last row of each column of a mask ``(H, W)`` that is True, ``(W,)`` each; or 0.
 
-    Of a thin line this takes a tenth of the time of walking down the columns.
+    Of a thin line this takes a tenth of the time of walking down the columns, which is done where
+    more than a tenth of the mask is True.
 
     >>> [rows.tolist() for rows in column_ends(np.array([[0, 0], [1, 0], [1, 0]], bool))]
     [[1, 0], [2, 0]]
     """
-    width = mask.shape[1]
+    height, width = mask.shape
+    if 10 * np.count_nonzero(mask) > mask.size:
+        last = (height - 1 - mask[::-1].argmax(axis=0)) * mask.any(axis=0)
+        return mask.argmax(axis=0).astype(np.int32), last.astype(np.int32)
     first, last = np.zeros(width, np.int32), np.zeros(width, np.int32)
     rows, columns = np.divmod(np.flatnonzero(mask), width)
     last[columns], first[columns[::-1]] = rows, rows[::-1]  # what is written last stays

@@ -28,7 +28,6 @@ from skyline_viz.sky_model import NETWORK, SkyModel
 from skyline_viz.skyline import Skyline
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
-from skyline_viz.system.memory import expect_photos
 from skyline_viz.tensor import Tensor, tensor_at
 from skyline_viz.training import GramMatrices, gather_item, solve, train
 
@@ -283,7 +282,6 @@ class Detector:
 
     def _detect(self, photo: U8, found: FilterDetection | None = None) -> FilterDetection:
         """See `detect` and `again`."""
-        expect_photos()
         config, bank = self.config, self.bank
         seconds = dict.fromkeys(STAGES if config.sky_weight else STAGES[1:], 0.0)
         if found and found.config.frame == config.frame:

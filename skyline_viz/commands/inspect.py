@@ -131,27 +131,31 @@ class Inspect:
             items = [replace(self._with_truth(one), name=one.name) for one in inputs]
             return write_report(self.report, title, items, self.methods.chosen())
         failures: list[Failure] = []
-        pixels = self._foresee(inputs)
+        pixels = self._sizes(inputs)
         using = self._using(inputs, failures)
+        self._foresee(inputs, pixels)
         with self._folder() as folder:
             files = self._record(inputs, pixels, using, folder, failures)
             if files:
                 self._show(files)
         return status_after(failures) or (GOOD if files else SOME_FAILED)
 
-    def _foresee(self, inputs: Sequence[NamedItem]) -> dict[str, int]:
-        """Say what is too large, or is kept in part; return the pixels of each input by name."""
+    def _sizes(self, inputs: Sequence[NamedItem]) -> dict[str, int]:
+        """Pixels of each input by name; for large ones the viewer's library is told so."""
         if not 0 <= self.full_megapixels < float("inf"):
             raise UsageError(f"--full-megapixels is 0 or more, not {self.full_megapixels:g}.")
         named = (replace(one.item, name=one.name) for one in inputs)
         most = self.max_megapixels * 1e6
         pixels = {item.name: found for item, found in pixels_of(named) if found <= most}
-        largest = max(pixels.values(), default=0)
-        if largest > FULL_MEGAPIXELS * 1e6:
+        if max(pixels.values(), default=0) > FULL_MEGAPIXELS * 1e6:
             import_frugally()
+        return pixels
+
+    def _foresee(self, inputs: Sequence[NamedItem], pixels: dict[str, int]) -> None:
+        """Say what is too large, or is kept in part."""
         from skyline_viz.viewer.contents import fidelity_of
 
-        total = largest if self.split else sum(pixels.values())
+        total = max(pixels.values(), default=0) if self.split else sum(pixels.values())
         full = total <= self.full_megapixels * 1e6
         if not full:
             size = in_words(FULL_RECORDING * total)
@@ -164,7 +168,6 @@ class Inspect:
             )
         items = (one.item for one in inputs)
         foresee(items, workers=1, bytes_a_pixel=RECORDING_FULL if full else RECORDING)
-        return pixels
 
     def _check_targets(self) -> None:
         check_picture(self.screenshot)

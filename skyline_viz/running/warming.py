@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from numba.core import event
+from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import cpu_target
 from numba.core.runtime import rtsys
 
@@ -33,10 +34,14 @@ matrix products."""
 
 @cache
 def warm_up() -> None:
-    """Load the compiled loops of this process, or compile and keep them."""
+    """Load the compiled loops of this process, or compile and keep them.
+
+    Other threads compile nothing meanwhile: numba would not be whole for them.
+    """
     photo = np.full((32, 32, 3), 200, np.uint8)
     photo[16:] = 50
     with (
+        global_compiler_lock,
         loading(),
         without(_BLAS),
         _without_compiler(),

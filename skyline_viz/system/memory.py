@@ -43,9 +43,6 @@ system, and bytes of an array that is no part of that heap."""
 _KEPT = {_TRIM: 256_000_000, _LARGEST: 64_000_000}
 """What they are where memory is kept."""
 
-_LEARNED = 31 << 20
-"""Bytes of an array from which glibc still learns: just below its limit."""
-
 _ARRAY = 1_000_000
 """Bytes of arrays that are no part of the heap where it is not."""
 
@@ -79,20 +76,6 @@ def keep_freed() -> None:
     if allocator := _of_glibc("mallopt"):
         for option, value in _KEPT.items():
             allocator(option, value)
-
-
-@cache
-def expect_photos() -> None:
-    """Let glibc know, once in a process, how large the arrays of a photo are.
-
-    It learns that from the largest array that was ever freed: so much memory, and as much again, it
-    keeps for the next one. A program that has seen one large photo is past this. In one that sees
-    small ones every second detection has its arrays cleared anew, which takes a thirtieth of its
-    time. Nothing is touched of the array here, and limits that were set are left alone.
-    """
-    import numpy as np  # noqa: PLC0415  # commands that detect nothing need none
-
-    np.empty(_LEARNED, np.uint8)
 
 
 def give_back() -> None:

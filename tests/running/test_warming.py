@@ -6,6 +6,7 @@ import threading
 from contextlib import ExitStack
 from types import SimpleNamespace
 
+import numba
 import pytest
 from filelock import FileLock
 from numba.core.registry import cpu_target
@@ -107,3 +108,28 @@ import scipy.linalg.cython_blas
 warm_up.__wrapped__()
 """
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_other_threads_compile_when_the_loops_are_loaded(monkeypatch):
+    compiled = []
+
+    def compile_meanwhile(_):
+        other = threading.Thread(target=lambda: compiled.append(_square()(3.0)))
+        other.start()
+        other.join(0.2)
+        assert other.is_alive()  # it waits
+        waiting.append(other)
+
+    waiting = []
+    monkeypatch.setattr(warming.Detector, "detect", lambda self, photo: compile_meanwhile(photo))
+    warming.warm_up.__wrapped__()
+    waiting[0].join()
+    assert compiled == [9.0]
+
+
+def _square():
+    @numba.vectorize(["float64(float64)"])
+    def square(value):
+        return value * value
+
+    return square

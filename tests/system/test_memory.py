@@ -1,7 +1,6 @@
 """Memory counted in bytes: which photos stay open, what is said before work, what is refused."""
 
 import gc
-import platform
 import subprocess
 import sys
 from types import SimpleNamespace
@@ -345,28 +344,6 @@ def test_freed_memory_is_kept_where_there_is_an_allocator_that_gives_it_back(mon
     assert told == memory._KEPT
     del library.mallopt
     memory.keep_freed()
-
-
-@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="other libraries keep what they like")
-@pytest.mark.parametrize(("expected", "again"), [(True, False), (False, True)])
-def test_arrays_as_large_as_a_photo_are_cleared_once(expected, again):
-    program = """
-import resource, sys
-import numpy as np
-from skyline_viz.system.memory import expect_photos
-if sys.argv[1] == "True":
-    expect_photos()
-cleared = []
-for _ in range(3):
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-    arrays = [np.ones(2_000_000, np.uint8) for _ in range(8)]
-    del arrays
-    cleared.append(resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before)
-print(cleared[2] > cleared[0] / 2)
-"""
-    words = [sys.executable, "-c", program, str(expected)]
-    done = subprocess.run(words, capture_output=True, text=True, check=True)
-    assert done.stdout.split() == [str(again)]
 
 
 @pytest.mark.parametrize("looked", [True, False])
