@@ -145,8 +145,7 @@ class Inspect:
         if not 0 <= self.full_megapixels < float("inf"):
             raise UsageError(f"--full-megapixels is 0 or more, not {self.full_megapixels:g}.")
         named = (replace(one.item, name=one.name) for one in inputs)
-        most = self.max_megapixels * 1e6
-        pixels = {item.name: found for item, found in pixels_of(named) if found <= most}
+        pixels = {one.name: n for one, n in pixels_of(named) if n <= self.max_megapixels * 1e6}
         if max(pixels.values(), default=0) > FULL_MEGAPIXELS * 1e6:
             import_frugally()
         return pixels
@@ -158,16 +157,16 @@ class Inspect:
         total = max(pixels.values(), default=0) if self.split else sum(pixels.values())
         full = total <= self.full_megapixels * 1e6
         if not full:
-            size = in_words(FULL_RECORDING * total)
+            large = in_words(FULL_RECORDING * total)
             alone = self.split or len(inputs) == 1
             near = fidelity_of(total, self.full_megapixels, alone=alone) == "full"
             say(
                 f"maps are kept {'whole near the line alone' if near else 'lean'}: "
-                f"{total / 1e6:.1f} megapixels in full would be {size} in one recording; "
+                f"{total / 1e6:.1f} megapixels in full would be {large} in one recording; "
                 f"--full-megapixels {math.ceil(total / 1e6)} keeps them."
             )
-        items = (one.item for one in inputs)
-        foresee(items, workers=1, bytes_a_pixel=RECORDING_FULL if full else RECORDING)
+        size = RECORDING_FULL if full else RECORDING
+        foresee((one.item for one in inputs), workers=1, bytes_a_pixel=size)
 
     def _check_targets(self) -> None:
         check_picture(self.screenshot)
