@@ -75,6 +75,24 @@ def most_helpful(
     return (remedy, tried[remedy]) if remedy else None
 
 
+def line_with(detection: Detection, remedy: Remedy, tried: Sequence[Remedy]) -> Skyline | None:
+    """The line of a detection with one of the remedies that `try_remedies` tried on it.
+
+    Args:
+        detection: The detection.
+        remedy: The remedy.
+        tried: All that were tried; they tell which settings were paired.
+    """
+    if not isinstance(detection, FilterDetection):
+        return None
+    if remedy.flags == LARGER:
+        return replace(detection.detector, sky=SkyModel.large()).again(detection).skyline
+    single = settings_to_try(detection)
+    changes = {one.name: one.change for one in tried}
+    config = {**single, **pairs_to_try(detection.config, single, changes)}.get(remedy.name)
+    return detection.again(config).skyline if config else None
+
+
 def _tried(
     detection: Detection, truth: Skyline, found: Diagnosis
 ) -> Iterator[tuple[Remedy, Skyline]]:

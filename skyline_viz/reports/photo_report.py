@@ -8,9 +8,8 @@ import numpy as np
 
 from skyline_viz.detection import Detection
 from skyline_viz.diagnosis.diagnosing import Segment
-from skyline_viz.diagnosis.other_settings import settings_to_try
 from skyline_viz.diagnosis.record import Diagnosed
-from skyline_viz.diagnosis.remedies import Remedy, best
+from skyline_viz.diagnosis.remedies import Remedy, best, line_with
 from skyline_viz.evaluation.metrics import TOLERANCE, scaled
 from skyline_viz.evaluation.results import PhotoResult
 from skyline_viz.evaluation.verdict import Verdict
@@ -55,10 +54,10 @@ class PhotoReport:
     """How it was made, in sentences."""
 
     confidence: float | None
-    """How surely the photo has a skyline; None of methods that cannot tell."""
+    """Probability that the line is no gross miss."""
 
     shows: Case | None
-    """Whether it has one; None like the confidence."""
+    """Whether it has a skyline; None of methods that cannot tell."""
 
     doubt: str
     """Why its line may be none, in a sentence; nothing where it is a skyline."""
@@ -130,8 +129,7 @@ def photo_report(
     height, width = detection.edges.shape
     side, photo_bytes, stage_side, stage_bytes = _LARGE if photos <= ALONE else _SMALL
     remedy = best(diagnosed.remedies) if diagnosed and not diagnosed.diagnosis.right else None
-    changed = settings_to_try(detection).get(remedy.name) if remedy else None
-    mended = detection.again(changed).skyline if changed else None
+    mended = line_with(detection, remedy, diagnosed.remedies) if diagnosed and remedy else None
     tolerance = diagnosed.diagnosis.tolerance if diagnosed else scaled(TOLERANCE, height)
     visibility = detection.visibility
     off = _LINE * max(height, width) / side
