@@ -1,6 +1,7 @@
 /** Cards of the sheet: a photo with its line, the straightened strip beside it, name and status. */
 
 import { made } from "../basics/dom.js";
+import { sure } from "../basics/words.js";
 import { blob } from "../server/api.js";
 
 /** @import { ShownPhoto } from "../types.js" */
@@ -46,6 +47,6 @@ async function fill(image, path, came) {
 export function labelCard(card, photo) {
   const status = card?.querySelector(".status");
   if (!(status instanceof HTMLElement)) return;
-  status.textContent = [photo.status, ...photo.tags].join(", ");
+  status.textContent = [photo.status, ...sure(photo.status, photo.confidence), ...photo.tags].join(", ");
   status.dataset.status = photo.status;
 }

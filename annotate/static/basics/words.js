@@ -33,3 +33,13 @@ export function trouble(reason, waiting, line = false) {
   const sent = waiting === 1 ? "waits and is sent as soon as it can be" : "wait and are sent as soon as they can be";
   return `${reason} ${counted(waiting, "edit")} ${sent}${line ? "; the line follows then" : ""}.`;
 }
+
+/**
+ * How surely the proposal of a photo that nobody has looked at is right, in words; nothing of others.
+ *
+ * @param {string} status
+ * @param {number | null} confidence - Probability that the line is no gross miss.
+ */
+export function sure(status, confidence) {
+  return status === "to do" && confidence !== null ? [`${Math.round(100 * confidence)} % sure`] : [];
+}
