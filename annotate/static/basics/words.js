@@ -41,5 +41,5 @@ export function trouble(reason, waiting, line = false) {
  * @param {number | null} confidence - Probability that the line is no gross miss.
  */
 export function sure(status, confidence) {
-  return status === "to do" && confidence !== null ? [`${Math.round(100 * confidence)} % sure`] : [];
+  return status === "to do" && confidence !== null ? [`${Math.min(Math.round(100 * confidence), 99)} % sure`] : [];
 }
