@@ -24,6 +24,7 @@ from annotate.work.open_photos import (
 )
 from annotate.work.overlays import overlays
 from annotate.work.session import Session
+from annotate.work.warming import warm_up
 from skyline_viz.detection import Detection
 from skyline_viz.method import Method
 from skyline_viz.photo import PhotoError
@@ -106,6 +107,7 @@ class Workbench:
         self._lock = threading.RLock()
         self._ahead = ThreadPoolExecutor(1, "ahead")
         self._soon = ThreadPoolExecutor(1, "soon")
+        self._soon.submit(warm_up)  # before the first gesture asks
         self._detection: tuple[int, int, Detection] | None = None
         chance = np.random.default_rng([assignment.seed, 1])
         drawn = chance.random(len(self.photos)) < assignment.blind
