@@ -217,8 +217,9 @@ export class Actions extends Events {
     const labelling = this.#labelling;
     const photo = this.target();
     if (photo) {
+      const { id, name } = photo; // each tick is of the photo as it is by then
       showTags(labelling, photo, (tag, on) =>
-        labelling.send(photo, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` }));
+        labelling.send({ id, name }, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` }));
     }
   }
 
