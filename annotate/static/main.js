@@ -37,6 +37,8 @@ signIn({ location, history, storage: sessionStorage });
 restoreTheme();
 const lines = canvas("lines");
 const focus = () => lines.focus({ preventScroll: true });
+const home = () => (sheet.shown ? sheet.home : lines);
+const goHome = () => home().focus({ preventScroll: true });
 
 const labelling = new Labelling();
 const view = new View();
@@ -49,8 +51,8 @@ const explained = new ExplainedPanel(labelling, selection, focus);
 new Choices(labelling, selection, line, focus);
 const overlay = new Overlay(labelling, stage.photo);
 new Strips(labelling, view, selection, line.goTo);
-new Messages(labelling, focus);
-const chosen = new Chosen(labelling);
+new Messages(labelling, goHome);
+const chosen = new Chosen(labelling, goHome);
 const sheet = new Sheet(labelling, chosen, focus);
 const actions = new Actions(labelling, sheet);
 new Header(labelling, actions, sheet);
@@ -68,6 +70,7 @@ const act = makeActs({ labelling, selection, stage, line, actions, toolbar, over
 const table = keyTable(act);
 
 sheet.on("finish", (status) => actions.finish(status));
+chosen.on("finish", ({ photos, status }) => actions.finishAll(photos, status));
 toolbar.on("tool", ({ id, name, title }) => {
   pointer.use(id);
   brush.show(id === "forbid");
@@ -101,7 +104,7 @@ const tour = new Tour(focus);
 button("tour-begin").addEventListener("click", () => closeWelcome(() => tour.begin()));
 addEventListener("online", () => labelling.queue.wake());
 addEventListener("beforeunload", (event) => labelling.queue.waiting && event.preventDefault());
-prepare(() => (sheet.shown ? sheet.home : lines));
+prepare(home);
 
 if (narrow()) showList(false);
 toolbar.choose("a");

@@ -205,6 +205,7 @@ def test_several_photos_are_chosen_tagged_accepted_and_taken_back(page):
     page.saved()
     page.page.locator("#chosen-accept").click()
     page.says("3 photos are accepted.")
+    assert page.page.locator("#lines:focus").count() == 1  # the button that had the keys is gone
     listed = page.client.get("/api/photos").json()["photos"]
     assert [one["status"] for one in listed] == ["to do", *["accepted"] * 3]
     assert [len(one["tags"]) for one in listed] == [0, 1, 1, 1]
