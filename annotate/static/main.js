@@ -66,7 +66,7 @@ new PhotoList(labelling, chosen, (id, clicked) => {
 });
 const toolbar = new Toolbar(box("tools"));
 const pointer = new Pointer({ canvas: lines, view, selection, labelling, previewer, brush, line: { ...line, anchor: line.setAnchor, goTo: line.select, explain: (pixel) => explained.show(pixel) } });
-const act = makeActs({ labelling, selection, stage, line, actions, toolbar, overlay, sheet, explained, brush, help: () => showHelp(table, GESTURES) });
+const act = makeActs({ labelling, selection, stage, line, pointer, actions, toolbar, overlay, sheet, explained, brush, help: () => showHelp(table, GESTURES) });
 const table = keyTable(act);
 
 sheet.on("finish", (status) => actions.finish(status));
