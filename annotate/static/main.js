@@ -68,6 +68,7 @@ const toolbar = new Toolbar(box("tools"));
 const pointer = new Pointer({ canvas: lines, view, selection, labelling, previewer, brush, line: { ...line, anchor: line.setAnchor, goTo: line.select, explain: (pixel) => explained.show(pixel) } });
 const act = makeActs({ labelling, selection, stage, line, pointer, actions, toolbar, overlay, sheet, explained, brush, help: () => showHelp(table, GESTURES) });
 const table = keyTable(act);
+const tour = new Tour(focus);
 
 sheet.on("finish", (status) => actions.finish(status));
 chosen.on("finish", ({ photos, status }) => actions.finishAll(photos, status));
@@ -90,7 +91,7 @@ listen(table, (event) => {
   const typing = around(event, "input:not([type=range]), select, textarea");
   const pressing = (event.key === " " || event.key === "Enter") && around(event, "button, [role=option]");
   const moving = event.key.startsWith("Arrow") && around(event, "input, [role=listbox], [role=radiogroup]");
-  return Boolean(typing || pressing || moving || document.querySelector("dialog[open]"));
+  return Boolean(tour.shown || typing || pressing || moving || document.querySelector("dialog[open]"));
 }, () => sheet.shown);
 letGo("z", () => act.magnify(false));
 const buttons = {
@@ -100,7 +101,6 @@ const buttons = {
   more: () => showMore(labelling), learn: () => learn(labelling), theme: turnTheme,
 };
 for (const [id, run] of Object.entries(buttons)) button(id).addEventListener("click", () => run());
-const tour = new Tour(focus);
 button("tour-begin").addEventListener("click", () => closeWelcome(() => tour.begin()));
 addEventListener("online", () => labelling.queue.wake());
 addEventListener("beforeunload", (event) => labelling.queue.waiting && event.preventDefault());
