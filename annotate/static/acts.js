@@ -7,6 +7,7 @@ import { stagesAddress } from "./server/api.js";
 /** @import { Labelling } from "./labelled/labelling.js" */
 /** @import { Selection } from "./labelled/selection.js" */
 /** @import { Stage } from "./drawn/stage.js" */
+/** @import { Pointer } from "./gestures/pointer.js" */
 /** @import { lineActions } from "./gestures/line_actions.js" */
 /** @import { Brush } from "./around/brush.js" */
 /** @import { ExplainedPanel } from "./around/explained.js" */
@@ -19,6 +20,7 @@ import { stagesAddress } from "./server/api.js";
  * @typedef {object} Parts
  * @property {Labelling} labelling
  * @property {ReturnType<typeof lineActions>} line
+ * @property {Pick<Pointer, "drop">} pointer
  * @property {Actions} actions
  * @property {Toolbar} toolbar
  * @property {Overlay} overlay
@@ -37,11 +39,12 @@ import { stagesAddress } from "./server/api.js";
  *
  * @param {Parts} parts
  */
-export function makeActs({ labelling, line, actions, toolbar, overlay, sheet, selection, stage, explained, brush, help }) {
+export function makeActs({ labelling, line, pointer, actions, toolbar, overlay, sheet, selection, stage, explained, brush, help }) {
   return {
     ...line,
     help,
     escape() {
+      pointer.drop();
       line.escape();
       explained.hide();
     },
@@ -54,7 +57,8 @@ export function makeActs({ labelling, line, actions, toolbar, overlay, sheet, se
     finish: (status) => actions.finish(status),
     /** @param {Status} status */
     setStatus: (status) => actions.setStatus(status),
-    undo: () => actions.undo(),
+    /** Take back what was done last: with a guide that is being made, its last corner. */
+    undo: () => (selection.now.corners.length && !sheet.shown ? line.dropCorner() : actions.undo()),
     redo: () => actions.redo(),
     tags: () => actions.tags(),
     /** @param {string} key */

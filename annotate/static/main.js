@@ -37,6 +37,8 @@ signIn({ location, history, storage: sessionStorage });
 restoreTheme();
 const lines = canvas("lines");
 const focus = () => lines.focus({ preventScroll: true });
+const home = () => (sheet.shown ? sheet.home : lines);
+const goHome = () => home().focus({ preventScroll: true });
 
 const labelling = new Labelling();
 const view = new View();
@@ -49,8 +51,8 @@ const explained = new ExplainedPanel(labelling, selection, focus);
 new Choices(labelling, selection, line, focus);
 const overlay = new Overlay(labelling, stage.photo);
 new Strips(labelling, view, selection, line.goTo);
-new Messages(labelling, focus);
-const chosen = new Chosen(labelling);
+new Messages(labelling, goHome);
+const chosen = new Chosen(labelling, goHome);
 const sheet = new Sheet(labelling, chosen, focus);
 const actions = new Actions(labelling, sheet);
 new Header(labelling, actions, sheet);
@@ -64,10 +66,12 @@ new PhotoList(labelling, chosen, (id, clicked) => {
 });
 const toolbar = new Toolbar(box("tools"));
 const pointer = new Pointer({ canvas: lines, view, selection, labelling, previewer, brush, line: { ...line, anchor: line.setAnchor, goTo: line.select, explain: (pixel) => explained.show(pixel) } });
-const act = makeActs({ labelling, selection, stage, line, actions, toolbar, overlay, sheet, explained, brush, help: () => showHelp(table, GESTURES) });
+const act = makeActs({ labelling, selection, stage, line, pointer, actions, toolbar, overlay, sheet, explained, brush, help: () => showHelp(table, GESTURES) });
 const table = keyTable(act);
+const tour = new Tour(focus);
 
 sheet.on("finish", (status) => actions.finish(status));
+chosen.on("finish", ({ photos, status }) => actions.finishAll(photos, status));
 toolbar.on("tool", ({ id, name, title }) => {
   pointer.use(id);
   brush.show(id === "forbid");
@@ -87,7 +91,7 @@ listen(table, (event) => {
   const typing = around(event, "input:not([type=range]), select, textarea");
   const pressing = (event.key === " " || event.key === "Enter") && around(event, "button, [role=option]");
   const moving = event.key.startsWith("Arrow") && around(event, "input, [role=listbox], [role=radiogroup]");
-  return Boolean(typing || pressing || moving || document.querySelector("dialog[open]"));
+  return Boolean(tour.shown || typing || pressing || moving || document.querySelector("dialog[open]"));
 }, () => sheet.shown);
 letGo("z", () => act.magnify(false));
 const buttons = {
@@ -97,11 +101,10 @@ const buttons = {
   more: () => showMore(labelling), learn: () => learn(labelling), theme: turnTheme,
 };
 for (const [id, run] of Object.entries(buttons)) button(id).addEventListener("click", () => run());
-const tour = new Tour(focus);
 button("tour-begin").addEventListener("click", () => closeWelcome(() => tour.begin()));
 addEventListener("online", () => labelling.queue.wake());
 addEventListener("beforeunload", (event) => labelling.queue.waiting && event.preventDefault());
-prepare(() => (sheet.shown ? sheet.home : lines));
+prepare(home);
 
 if (narrow()) showList(false);
 toolbar.choose("a");

@@ -176,3 +176,25 @@ test("what the detector doubts of the next photo's proposal is said with it", as
   await actions.finish("accepted");
   assert.match(said.at(-1).text, /^hill-1.png is accepted. The detector says of this one: No skyline is visible/);
 });
+
+for (const shown of [false, true]) {
+  test(`one Undo takes back what several photos were given at once, ${shown ? "in the sheet" : "beside the photo"}`, async () => {
+    sheet.shown = shown;
+    await actions.finishAll(labelling.photos, "rejected");
+    assert.deepEqual([said.at(-1).text, actions.undoes], ["3 photos are rejected.", "3 photos rejected"]);
+    actions.undo();
+    await quiet();
+    assert.deepEqual([1, 2, 3].map(status), ["to do", "to do", "to do"]);
+    assert.deepEqual([said.at(-1).text, actions.undoes, labelling.document.id], ["3 photos as before.", "", 1]);
+  });
+}
+
+test("of several photos, Undo leaves the one that was changed since as it is", async () => {
+  sheet.shown = true;
+  await actions.finishAll(labelling.photos, "accepted");
+  labelling.send({ id: 2, name: "hill-2.png" }, { what: "operations", operation: { kind: "anchor", column: 0, row: 1 }, says: "an anchor" });
+  await quiet();
+  actions.undo();
+  await quiet();
+  assert.deepEqual([1, 2, 3].map(status), ["to do", "in progress", "to do"]);
+});

@@ -65,3 +65,11 @@ test("a photo that is labelled blind has nothing to snap to, which is said", () 
   assert.match(labelling.said.at(-1), /blind/);
   assert.deepEqual(labelling.applied, []);
 });
+
+test("a corner by key shows the cursor, so that an arrow moves on from there; a click does not", () => {
+  act.corner([50, 100]);
+  assert.equal(selection.now.cursor, null);
+  selection.corner([]);
+  act.corner();
+  assert.deepEqual(selection.now.cursor, { column: 200, row: null });
+});

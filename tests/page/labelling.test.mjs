@@ -140,3 +140,15 @@ test("nothing is done to a photo that is being left", async () => {
   await opening;
   assert.equal(labelling.waiting, 0);
 });
+
+test("a reason that is chosen later is a tag of the photo as it is by then", async () => {
+  const labelling = await opened();
+  const [reason] = labelling.reasons(labelling.document, ["hidden by cloud"]);
+  await labelling.apply({ kind: "anchor", column: 0, row: 7 });
+  const said = [];
+  labelling.on("said", ({ text, bad }) => said.push([text, bad]));
+  reason.run();
+  await labelling.queue.settled();
+  assert.deepEqual(server.documents.get(1).tags, ["hidden by cloud"]);
+  assert.deepEqual(said, [["hill-1.png has the tag “hidden by cloud”.", false]]);
+});

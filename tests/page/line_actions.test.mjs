@@ -152,3 +152,11 @@ test("Escape drops everything that is selected", () => {
   act.escape();
   assert.deepEqual([selection.now.mark, selection.now.cursor], [null, null]);
 });
+
+test("a guide is made by key from nothing", () => {
+  act.corner();
+  act.moveColumn(100);
+  act.corner();
+  act.anchorHere();
+  assert.deepEqual(labelling.applied.map(({ points }) => points), [[[200, 100], [300, 100]]]);
+});

@@ -19,8 +19,11 @@ test("the number of a line stands where no other line is, and on no other number
   const both = current.map((row, column) => (column < 40 ? 20 : 80));
   const [[first], [second, row]] = badges([one, both], current, [0, 99], 4);
   assert.ok(first < 100 && second >= 40 && row === 80);
+  const late = current.map((level, column) => (column >= 60 ? 20 : level + column % 2));
+  for (const [column] of badges([late, [...late]], current, [0, 99], 4)) assert.ok(column >= 60); // nor a pixel from it
   const [[left], [right]] = badges([one, [...one]], current, [0, 99], 4);
   assert.notEqual(left, right);
+  assert.ok(left < 40 && right < 40); // not where both lie on the current one
 });
 
 test("the corridor is as wide as the server makes it", () => {

@@ -184,3 +184,37 @@ test("without a photo nothing happens", () => {
   drag([[100, 60], [120, 60]]);
   assert.deepEqual([labelling.applied, done, previewer.asked], [[], [], []]);
 });
+
+test("a press comes to nothing on the next photo", () => {
+  tell("pointerdown", 100, 60);
+  labelling.show(photo({ id: 2 }), true);
+  tell("pointermove", 103, 60);
+  tell("pointerup", 103, 60);
+  assert.deepEqual([done, previewer.asked], [[], []]);
+  drag([[100, 60]]); // and the next one is a press again
+  assert.deepEqual(done, [["anchor", 100, 60, 4]]);
+});
+
+test("a press that is dropped comes to nothing, before it draws and while it moves an anchor", () => {
+  for (const places of [[[100, 60], [105, 60]], [[50, 100], [80, 110]]]) {
+    tell("pointerdown", ...places[0]);
+    tell("pointermove", ...places[1]);
+    pointer.drop();
+    tell("pointermove", 150, 110);
+    tell("pointerup", 150, 110);
+  }
+  assert.deepEqual([done, labelling.applied], [[], []]);
+});
+
+test("beside the photo a press does nothing and shows nothing; a few pixels beside its edge mean the edge", () => {
+  view.resize(600, 240); // 100 screen pixels on either side
+  for (const tool of ["anchor", "guide", "forbid", "straight", "explain"]) {
+    pointer.use(tool);
+    drag([[40, 60], [60, 70], [300, 80]]);
+  }
+  pointer.use("anchor");
+  tell("pointermove", 560, 60);
+  assert.deepEqual([done, labelling.applied, previewer.asked], [[], [], []]);
+  drag([[96, 60]]);
+  assert.deepEqual(done, [["anchor", 0, 60, 4]]);
+});

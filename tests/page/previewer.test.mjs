@@ -47,10 +47,11 @@ test("a preview is shown, and known until the line changes", async () => {
 test("while one question is on its way, only the latest one is asked next", async () => {
   for (const column of [1, 2, 3, 4]) previewer.ask(column, 9);
   await reply(0, PART);
-  assert.deepEqual(shown, []); // something else is wanted by now
-  await reply(1, PART);
+  assert.deepEqual(shown, [PART]); // the newest that is known, though something else is wanted by now
+  assert.equal(previewer.known("preview", { column: 4, row: 9, within: 0, lifted: null }), null);
+  await reply(1, { first: 7, rows: [8] });
   assert.deepEqual(asked.map(({ body }) => body.column), [1, 4]);
-  assert.deepEqual(shown, [PART]);
+  assert.deepEqual(shown, [PART, { first: 7, rows: [8] }]);
 });
 
 test("an answer that comes after it is not wanted any more shows nothing", async () => {
@@ -59,6 +60,26 @@ test("an answer that comes after it is not wanted any more shows nothing", async
   await reply(0, PART);
   assert.deepEqual(shown, [null]);
   assert.equal(previewer.known("preview", { column: 5, row: 6, within: 0, lifted: null }), null);
+});
+
+test("a hand that never rests sees a line for each answer, the newest last", async () => {
+  const rough = (to) => ({ points: [[0, 9], [to, 9]], radius: 6, times: [] });
+  for (let at = 0; at < 5; at++) {
+    previewer.follow(rough(2 * at + 1));
+    previewer.follow(rough(2 * at + 2)); // the hand is elsewhere before the answer comes
+    await reply(at, { first: at, rows: [1] });
+  }
+  assert.deepEqual(shown.map(({ first }) => first), [0, 1, 2, 3, 4]);
+});
+
+test("what was asked before previews were dropped is not shown for what is wanted since", async () => {
+  previewer.ask(5, 6);
+  previewer.clear();
+  previewer.ask(7, 8);
+  await reply(0, PART);
+  assert.deepEqual(shown, [null]);
+  await reply(1, PART);
+  assert.deepEqual(shown, [null, PART]);
 });
 
 test("an answer about another line, or another photo, shows nothing", async () => {

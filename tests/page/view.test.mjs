@@ -93,3 +93,10 @@ test("every change is told", () => {
   view.resize(700, 300);
   assert.equal(told, 5);
 });
+
+test("how far a point is beside the photo", () => {
+  const view = new View();
+  view.resize(600, 240);
+  view.show(400, 240);
+  assert.deepEqual([[100, 0], [300, 240], [97, 100], [503, 244]].map((at) => view.beside(...at)), [0, 0, 3, 5]);
+});

@@ -2,6 +2,7 @@
 
 import { Events } from "../basics/events.js";
 import { isChange } from "../basics/operations.js";
+import { counted } from "../basics/words.js";
 import { showTags } from "./dialogs.js";
 
 /** @import { Labelling } from "../labelled/labelling.js" */
@@ -21,14 +22,14 @@ export class Actions extends Events {
   #labelling;
   #sheet;
   /**
-   * What Undo takes back although its photo has been left, newest last. The revision is that of the status
-   * itself, so that nothing that was done since is taken back for it.
+   * What Undo takes back although its photo has been left, newest last, each with all that was done at once. The
+   * revision is that of the status itself, so that nothing that was done since is taken back for it.
    *
-   * @type {Done[]}
+   * @type {Done[][]}
    */
   #trail = [];
-  /** @type {Done | null} */
-  #latest = null; // what was said last, and the button beside the words takes back
+  /** @type {Done[]} */
+  #latest = []; // what was said last, and the button beside the words takes back
 
   /**
    * @param {Labelling} labelling
@@ -63,7 +64,7 @@ export class Actions extends Events {
   /** What Undo would take back, in words; empty where there is nothing. */
   get undoes() {
     const last = this.#trail.at(-1);
-    if (last) return `${last.name} ${last.status}`;
+    if (last) return `${named(last)} ${last[0].status}`;
     const photo = this.#shown();
     if (!photo) return "";
     const waiting = this.#labelling.queue.of(photo.id).filter((item) => item.operation && isChange(item)).at(-1);
@@ -93,6 +94,24 @@ export class Actions extends Events {
    */
   setStatus(status) {
     return this.#set(status, false);
+  }
+
+  /**
+   * Give several photos a status. One Undo takes all of it back.
+   *
+   * @param {ShownPhoto[]} photos
+   * @param {Status} status
+   */
+  async finishAll(photos, status) {
+    const others = photos.filter((photo) => photo.status !== status);
+    const act = others.map((photo) => statusOf(photo, status));
+    const sent = act.map((done, at) => this.#give(others[at], done));
+    if (act.length) this.#follow([...this.#trail, act]);
+    const given = await Promise.all(sent);
+    const kept = act.filter((_, at) => given[at]);
+    this.#latest = kept;
+    const words = `${counted(kept.length, "photo")} ${kept.length === 1 ? "is" : "are"} ${status}.`;
+    this.#labelling.say(words, false, kept.length ? () => this.#takeBack(kept) : null);
   }
 
   /** The photo that is shown; null where the sheet is, or another photo is on its way. */
@@ -137,15 +156,28 @@ export class Actions extends Events {
    */
   async #send(photo, status, goOn) {
     const labelling = this.#labelling;
-    const done = { id: photo.id, name: photo.name, status, revision: -1 };
-    const sent = labelling.send(photo, { what: "operations", operation: { kind: "status", status }, says: `“${status}”` });
-    if (this.#sheet.shown) this.#follow([...this.#trail, done]);
-    const kept = await sent;
-    if (kept?.status !== status) return this.#forget([done]);
-    done.revision = kept.kept ?? kept.revision;
-    this.#latest = done;
+    const done = statusOf(photo, status);
+    const sent = this.#give(photo, done);
+    if (this.#sheet.shown) this.#follow([...this.#trail, [done]]);
+    if (!await sent) return;
+    this.#latest = [done];
     if (labelling.queue.of(photo.id).some(isChange)) return; // it does not stay so: what is said is said of that
     await this.#goOn(goOn, photo, `${photo.name} is ${status}.`, done);
+  }
+
+  /**
+   * Send a status.
+   *
+   * @param {Document | ShownPhoto} photo
+   * @param {Done} done
+   * @returns {Promise<boolean>} Whether the photo has it now.
+   */
+  async #give(photo, done) {
+    const { status } = done;
+    const kept = await this.#labelling.send(photo, { what: "operations", operation: { kind: "status", status }, says: `“${status}”` });
+    if (kept?.status === status) done.revision = kept.kept ?? kept.revision;
+    else this.#forget([done]);
+    return kept?.status === status;
   }
 
   /**
@@ -161,7 +193,7 @@ export class Actions extends Events {
     const seen = labelling.document?.id === photo.id && !labelling.loading && !this.#sheet.shown;
     const more = goOn && seen ? await this.#openNext(done) : "";
     if (more === null) return;
-    labelling.say(`${said}${more}`, false, done && (() => this.#takeBack(done)), this.#reasons(done));
+    labelling.say(`${said}${more}`, false, done && (() => this.#takeBack([done])), this.#reasons(done));
   }
 
   /**
@@ -183,7 +215,7 @@ export class Actions extends Events {
     const next = labelling.following();
     if (!next) return " No photo is to do any more.";
     if (!await labelling.open(next.id)) return null;
-    if (done) this.#follow([done]);
+    if (done) this.#follow([[done]]);
     return this.#doubts();
   }
 
@@ -217,24 +249,28 @@ export class Actions extends Events {
     const labelling = this.#labelling;
     const photo = this.target();
     if (photo) {
+      const { id, name } = photo; // each tick is of the photo as it is by then
       showTags(labelling, photo, (tag, on) =>
-        labelling.send(photo, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` }));
+        labelling.send({ id, name }, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` }));
     }
   }
 
   /**
-   * Take a status back, and go back to its photo.
+   * Take back what was done at once: the statuses of several photos, or that of one, to which this goes back.
    *
-   * @param {Done} done
+   * @param {Done[]} act
    */
-  async #takeBack(done) {
-    this.#forget([done]);
+  async #takeBack(act) {
+    this.#forget(act);
     const labelling = this.#labelling;
-    const kept = await labelling.send(done, { what: "undo", says: `taking back “${done.status}”` });
-    if (!kept) return;
-    if (this.#sheet.shown) this.#sheet.focus(done.id);
-    else if (labelling.document?.id !== done.id) await labelling.open(done.id);
-    labelling.say(`${done.name} is ${kept.status} again.`);
+    const sent = act.map((done) => labelling.send(done, { what: "undo", says: `taking back “${done.status}”` }));
+    const kept = (await Promise.all(sent)).filter((now) => now !== null);
+    if (!kept.length) return;
+    const [{ id, name, status }] = kept;
+    if (act.length > 1) return labelling.say(`${counted(kept.length, "photo")} as before.`);
+    if (this.#sheet.shown) this.#sheet.focus(id);
+    else if (labelling.document?.id !== id) await labelling.open(id);
+    labelling.say(`${name} is ${status} again.`);
   }
 
   /**
@@ -244,7 +280,7 @@ export class Actions extends Events {
    * @param {Document} document
    */
   #keepUp(item, document) {
-    const here = this.#trail.filter(({ id }) => id === item.photo);
+    const here = this.#trail.flat().filter(({ id }) => id === item.photo);
     const { operation, quiet } = item;
     if (operation && isChange(item)) {
       if (operation.kind !== "status") this.#forget(here);
@@ -259,12 +295,13 @@ export class Actions extends Events {
    * @param {Item} item
    */
   #latestBehind({ operation, photo }) {
-    return operation && this.#latest?.id === photo ? [this.#latest] : [];
+    return operation ? this.#latest.filter(({ id }) => id === photo) : [];
   }
 
   /** @param {Done[]} past - What cannot be taken back any more. */
   #forget(past) {
-    if (past.length) this.#follow(this.#trail.filter((one) => !past.includes(one)));
+    const left = this.#trail.map((act) => act.filter((one) => !past.includes(one)));
+    if (past.length) this.#follow(left.filter((act) => act.length));
   }
 
   /**
@@ -285,9 +322,23 @@ export class Actions extends Events {
     }
   }
 
-  /** @param {Done[]} trail */
+  /** @param {Done[][]} trail */
   #follow(trail) {
     this.#trail = trail;
     this.tell("change");
   }
+}
+
+/**
+ * @param {Document | ShownPhoto} photo
+ * @param {Status} status
+ * @returns {Done}
+ */
+function statusOf({ id, name }, status) {
+  return { id, name, status, revision: -1 };
+}
+
+/** @param {Done[]} act */
+function named(act) {
+  return act.length === 1 ? act[0].name : counted(act.length, "photo");
 }

@@ -1,6 +1,7 @@
 /** Buttons for the lines along other ridges while they are shown: for the mouse and for fingers. */
 
 import { box, button, made } from "../basics/dom.js";
+import { colourOf } from "../drawn/marks.js";
 
 /** @import { Labelling } from "../labelled/labelling.js" */
 /** @import { Selection } from "../labelled/selection.js" */
@@ -27,6 +28,7 @@ export class Choices {
       box("choices").hidden = !others.length;
       const buttons = others.map((other, at) => {
         const one = made("button", { type: "button", textContent: `${at + 1}: ${words(other)}` });
+        one.style.boxShadow = `inset 0 -4px 0 ${colourOf(at)}`; // that of its line
         one.addEventListener("click", () => {
           line.alternative(at + 1);
           focus();

@@ -9,21 +9,26 @@ import { showTags } from "./dialogs.js";
 /** @import { ShownPhoto, Status } from "../types.js" */
 
 /**
- * The photos that are chosen, and what can be done to them. Event: `change`.
+ * The photos that are chosen, and what can be done to them. Events: `change`, and `finish` (they are given a status).
  *
- * @extends {Events<{change: undefined}>}
+ * @extends {Events<{change: undefined, finish: {photos: ShownPhoto[], status: Status}}>}
  */
 export class Chosen extends Events {
   #labelling;
+  #focus;
   /** @type {Set<number>} */
   #ids = new Set();
   /** @type {number | null} */
   #last = null; // from which Shift chooses
 
-  /** @param {Labelling} labelling */
-  constructor(labelling) {
+  /**
+   * @param {Labelling} labelling
+   * @param {() => void} focus - Gives the keys to what is worked on.
+   */
+  constructor(labelling, focus) {
     super();
     this.#labelling = labelling;
+    this.#focus = focus;
     const buttons = /** @type {const} */ ({ "chosen-accept": "accepted", "chosen-review": "needs review", "chosen-reject": "rejected" });
     for (const [id, status] of Object.entries(buttons)) button(id).addEventListener("click", () => this.finish(status));
     button("chosen-tags").addEventListener("click", () => this.tag());
@@ -63,22 +68,14 @@ export class Chosen extends Events {
   }
 
   /**
-   * Give all of them a status. One Undo takes all of it back.
+   * Give all of them a status.
    *
    * @param {Status} status
    */
-  async finish(status) {
-    const labelling = this.#labelling;
-    const photos = this.photos.filter((photo) => photo.status !== status);
-    const sent = photos.map((photo) => labelling.send(photo, { what: "operations", operation: { kind: "status", status }, says: `“${status}”` }));
+  finish(status) {
+    const { photos } = this;
     this.clear();
-    const kept = (await Promise.all(sent)).map((now, at) => ({ ...photos[at], revision: now?.kept ?? now?.revision ?? -1, now }))
-      .filter(({ now }) => now?.status === status);
-    const words = `${counted(kept.length, "photo")} ${kept.length === 1 ? "is" : "are"} ${status}.`;
-    labelling.say(words, false, kept.length ? () => {
-      for (const photo of kept) labelling.send(photo, { what: "undo", says: `taking back “${status}”` });
-      labelling.say(`${counted(kept.length, "photo")} as before.`);
-    } : null);
+    this.tell("finish", { photos, status });
   }
 
   /** Tags that all of them have are ticked; what is ticked then is ticked for all. */
@@ -94,7 +91,9 @@ export class Chosen extends Events {
   }
 
   #changed() {
+    const focused = box("chosen").contains(document.activeElement);
     box("chosen").hidden = !this.#ids.size;
+    if (focused && !this.#ids.size) this.#focus(); // not lost with the button
     box("chosen-count").textContent = `${counted(this.#ids.size, "photo")} chosen`;
     this.tell("change");
   }

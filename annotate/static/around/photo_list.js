@@ -134,7 +134,7 @@ export class PhotoList {
     const sub = [lost || photo.status, ...besides(photo)].join(", ");
     const words = made("div", { className: "words" },
       made("div", { className: "title", textContent: photo.name, title: photo.name }),
-      made("div", { className: `sub ${lost ? "missing" : photo.status.split(" ")[0]}`, textContent: sub }));
+      made("div", { className: `sub ${lost ? "missing" : photo.status.split(" ")[0]}`, textContent: sub, title: explained(photo, sub) }));
     const item = made("div", { className: `item${this.#chosen.has(photo.id) ? " chosen-one" : ""}`, id: `photo-${photo.id}`, title: photo.problem }, image, words);
     item.dataset.photo = String(photo.id);
     item.style.top = `${at * HEIGHT}px`;
@@ -166,6 +166,16 @@ function trouble({ missing, too_large: tooLarge, problem }) {
   if (missing) return "missing";
   if (tooLarge) return "too large";
   return problem ? "cannot be read" : "";
+}
+
+/**
+ * All that there is to say of a photo, where its line is too short for it.
+ *
+ * @param {ShownPhoto} photo
+ * @param {string} sub
+ */
+function explained({ problem }, sub) {
+  return problem || sub;
 }
 
 /**

@@ -24,11 +24,18 @@ export class Tour {
     this.#focus = focus;
     button("tour-next").addEventListener("click", () => this.#go(this.#at + 1));
     button("tour-skip").addEventListener("click", () => this.#go(STOPS.length));
-    box("tour").addEventListener("keydown", (event) => {
-      event.stopPropagation(); // keys of the page rest meanwhile
-      if (event.key === "Escape") this.#go(STOPS.length);
-    });
-    addEventListener("resize", () => this.#at >= 0 && this.#place());
+    document.addEventListener("keydown", (event) => {
+      if (!this.shown || event.key !== "Escape" || document.querySelector("dialog[open]")) return;
+      event.stopPropagation(); // it ends the tour alone, wherever the keys are
+      event.preventDefault();
+      this.#go(STOPS.length);
+    }, { capture: true });
+    addEventListener("resize", () => this.shown && this.#place());
+  }
+
+  /** Whether it is on; the keys of the page rest meanwhile. */
+  get shown() {
+    return this.#at >= 0;
   }
 
   /** Begin. */

@@ -11,6 +11,9 @@ export const ANCHOR = 6;
 /** Colours in which the brush forbids, and its eraser allows, while they paint. */
 export const BRUSHES = { forbid: "rgb(0 0 0 / 55%)", allow: "rgb(255 255 255 / 35%)" };
 
+/** Colours of the lines along other ridges, which are told apart by most eyes, and none is that of the line. */
+export const OTHERS = ["#f0e442", "#5cc8ff", "#ff9f1c", "#52d683"];
+
 /**
  * What draws on a canvas.
  *

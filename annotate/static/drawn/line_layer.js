@@ -5,7 +5,7 @@ import { brushed } from "../basics/geometry.js";
 import { corridor } from "./corridor.js";
 import { hatched } from "./hatching.js";
 import { magnify } from "./magnifier.js";
-import { BADGE, apart, badge, badges, framed, ring, veil } from "./marks.js";
+import { BADGE, apart, badge, badges, colourOf, framed, ring, veil } from "./marks.js";
 import { paintWaiting, sketched } from "./waiting.js";
 
 /** @import { Point } from "../basics/geometry.js" */
@@ -132,7 +132,7 @@ export class LineLayer {
     if (this.#paths?.stairs !== stairs) this.#paths = linePaths(document, stairs);
     this.#trace(pen, this.#paths.hidden, colours.line, [6, 5]);
     this.#trace(pen, this.#paths.visible, colours.line);
-    this.#paintOthers(pen, colours, document.rows ?? [], stairs);
+    this.#paintOthers(pen, document.rows ?? [], stairs);
     if (preview?.rows.length) this.#trace(pen, linePath(preview.first, preview.rows, stairs), colours.preview);
     if (stroke) this.#paintStroke(pen, stroke, colours);
   }
@@ -180,15 +180,14 @@ export class LineLayer {
    * Lines along other ridges; the one that is looked at alone.
    *
    * @param {CanvasRenderingContext2D} pen
-   * @param {Colours} colours
    * @param {number[]} current
    * @param {boolean} stairs
    */
-  #paintOthers(pen, { preview }, current, stairs) {
+  #paintOthers(pen, current, stairs) {
     const { others, other } = this.#selection.now;
     others.forEach(({ rows }, at) => {
       if (other !== null && other !== at) return;
-      for (const part of apart(rows, current)) this.#trace(pen, linePath(part.first, part.rows, stairs), preview);
+      for (const part of apart(rows, current)) this.#trace(pen, linePath(part.first, part.rows, stairs), colourOf(at));
     });
   }
 

@@ -1,6 +1,6 @@
 /** Marks over the photo in screen pixels: numbers, hidden spans, the ring of the brush, corners of a guide. */
 
-import { disc, softHalo } from "../basics/drawing.js";
+import { OTHERS, disc, softHalo } from "../basics/drawing.js";
 
 /** @import { Point } from "../basics/geometry.js" */
 /** @import { Colours, Document } from "../types.js" */
@@ -9,16 +9,25 @@ import { disc, softHalo } from "../basics/drawing.js";
 /** Radius of a number, in screen pixels. */
 export const BADGE = 11;
 
+const ALIKE = 0.1; // what a row from the line as it is counts against one from all lines: decides where others go along
+
 /**
- * The number of a line, on it.
+ * The colour of one of the lines along other ridges.
+ *
+ * @param {number} at - From 0.
+ */
+export const colourOf = (at) => OTHERS[at % OTHERS.length];
+
+/**
+ * The number of a line, on it and in its colour.
  *
  * @param {CanvasRenderingContext2D} pen
  * @param {Point} at - On the screen.
- * @param {number} number
+ * @param {number} number - From 1.
  * @param {Colours} colours
  */
 export function badge(pen, at, number, colours) {
-  disc(pen, at, BADGE, { fill: colours.preview, rim: colours.halo, width: 2 });
+  disc(pen, at, BADGE, { fill: colourOf(number - 1), rim: colours.halo, width: 2 });
   Object.assign(pen, { fillStyle: colours.halo, font: "bold 14px system-ui, sans-serif", textAlign: "center", textBaseline: "middle" });
   pen.fillText(String(number), at[0], at[1] + 1);
   Object.assign(pen, { textAlign: "start", textBaseline: "alphabetic" });
@@ -26,7 +35,7 @@ export function badge(pen, at, number, colours) {
 
 /**
  * Where the badge of each of some lines stands: where the line is farthest from all others, so that it is seen
- * which one is meant, and not on another badge.
+ * which one is meant, and not on another badge. What is never far from another one is far from the current one.
  *
  * @param {number[][]} lines - Rows of each.
  * @param {number[]} current - Rows of the line as it is.
@@ -42,7 +51,8 @@ export function badges(lines, current, [first, last], room) {
     let [best, most] = [first, -2];
     for (let column = first; column <= last; column += Math.max(Math.floor(room / 4), 1)) {
       const taken = found.some(([one, row]) => Math.hypot(one - column, row - rows[column]) < 2 * room);
-      const away = taken ? -1 : Math.min(...others.map((other) => Math.abs(other[column] - rows[column])));
+      const each = others.map((other) => Math.abs(other[column] - rows[column])); // the current one is the first
+      const away = taken ? -1 : Math.min(...each) + ALIKE * each[0];
       if (away > most) [best, most] = [column, away];
     }
     found.push([best, rows[best]]);

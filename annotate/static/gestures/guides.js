@@ -100,13 +100,15 @@ export function guideActions({ labelling, selection, view, previewer }) {
     /**
      * Go on to another corner; the last one once more ends the guide.
      *
-     * @param {Point} [pixel] - The cursor's unless given.
+     * @param {Point} [pixel] - The cursor's unless given; the cursor is there from then on.
      */
-    corner(pixel = place()) {
-      const { corners } = selection.now;
+    corner(pixel) {
+      const { corners, cursor } = selection.now;
+      const at = pixel ?? place();
       const last = corners.at(-1);
-      if (last && close(last, pixel)) return act.finishGuide();
-      selection.corner([...corners, pixel]);
+      if (last && close(last, at)) return act.finishGuide();
+      selection.corner([...corners, at]);
+      if (!pixel && !cursor) selection.moveTo(/** @type {Document} */ (labelling.document), at[0]);
       act.showGuide();
       const said = corners.length ? "The next corner; the last one again, or Enter, ends the guide. Escape drops it." : "The guide begins here. Now the next corner along the ridge.";
       labelling.say(said);

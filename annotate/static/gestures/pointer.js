@@ -14,6 +14,7 @@ import { DragTool, PanTool, makeTools } from "./tools.js";
 
 const STILL = 4; // screen pixels within which a press is a click
 const FAR = { finger: 48, mouse: 12 }; // screen pixels from which on a press draws a stroke
+const EDGE = { finger: 24, mouse: 8 }; // screen pixels beside the photo that still mean its edge
 const REACH = { finger: 24, mouse: 10 }; // screen pixels within which an anchor is hit
 
 /**
@@ -48,6 +49,7 @@ export class Pointer {
     this.#parts = parts;
     this.#bench = { selection, view, previewer, brush, anchor, goTo, guide, corner, explain, apply: did };
     this.#tools = makeTools(this.#bench);
+    parts.labelling.on("document", ({ fresh }) => fresh && this.drop()); // it was meant for another photo
     canvas.addEventListener("pointerdown", (event) => this.#start(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
     canvas.addEventListener("pointerup", (event) => this.#end(event));
@@ -72,6 +74,11 @@ export class Pointer {
     this.#parts.selection.corner([]);
   }
 
+  /** Let a press that is not over come to nothing. */
+  drop() {
+    if (this.#press) this.#drop();
+  }
+
   /** @param {PointerEvent} event */
   #start(event) {
     const { canvas, labelling } = this.#parts;
@@ -91,8 +98,10 @@ export class Pointer {
       return;
     }
     this.#parts.selection.offer([]);
-    this.#press = { tool: this.#toolFor(event.button, anchor), from: at, last: at, moved: false, far: false };
-    this.#press.tool.start(this.#contact(event));
+    const tool = this.#toolFor(event, anchor);
+    if (!tool) return;
+    this.#press = { tool, from: at, last: at, moved: false, far: false };
+    tool.start(this.#contact(event));
   }
 
   /** @param {PointerEvent} event */
@@ -101,7 +110,7 @@ export class Pointer {
     if (this.#down.has(event.pointerId)) this.#down.set(event.pointerId, this.#at(event));
     if (this.#pinch) this.#pinched(this.#pinch);
     else if (this.#press) this.#press.tool.move(this.#contact(event));
-    else this.#hover(event);
+    else if (!this.#down.size) this.#hover(event); // else the press was dropped
   }
 
   /** @param {PointerEvent} event */
@@ -148,20 +157,24 @@ export class Pointer {
     selection.point(this.#at(event));
     if (labelling.waiting || selection.now.others.length) return;
     const pixel = view.toPixel(...this.#at(event));
-    if (selection.now.corners.length) line.showGuide(pixel);
+    if (this.#beside(event)) previewer.clear();
+    else if (selection.now.corners.length) line.showGuide(pixel);
     else if (this.#chosen !== "anchor") return;
     else if (this.#anchorAt(event) === undefined) previewer.ask(...pixel, snapping(view.scale, { finger: false, shift: event.shiftKey }));
     else previewer.clear();
   }
 
   /**
-   * @param {number} pressed - Which button of the mouse.
+   * What follows a press; null where it is beside the photo.
+   *
+   * @param {PointerEvent} event
    * @param {number | undefined} anchor - Column of the anchor that is hit.
-   * @returns {Tool}
+   * @returns {Tool | null}
    */
-  #toolFor(pressed, anchor) {
-    if (pressed !== 0) return new PanTool(this.#bench);
+  #toolFor(event, anchor) {
+    if (event.button !== 0) return new PanTool(this.#bench);
     if (this.#chosen === "anchor" && anchor !== undefined) return new DragTool(this.#bench, anchor);
+    if (this.#beside(event)) return event.altKey ? new PanTool(this.#bench) : null;
     return this.#tools[this.#chosen];
   }
 
@@ -200,6 +213,15 @@ export class Pointer {
   #at(event) {
     const bounds = this.#parts.canvas.getBoundingClientRect();
     return [event.clientX - bounds.left, event.clientY - bounds.top];
+  }
+
+  /**
+   * Whether a pointer is so far beside the photo that no pixel of it is meant.
+   *
+   * @param {PointerEvent} event
+   */
+  #beside(event) {
+    return this.#parts.view.beside(...this.#at(event)) > (event.pointerType === "touch" ? EDGE.finger : EDGE.mouse);
   }
 
   /**

@@ -164,18 +164,19 @@ export class Labelling extends Events {
   }
 
   /**
-   * Reasons to choose from, each of which becomes a tag of a photo.
+   * Reasons to choose from, each of which becomes a tag of a photo. They are taken later, when the photo may have
+   * another revision, and a tag fits any.
    *
    * @param {{id: number, name: string}} photo
    * @param {readonly string[]} tags - None where none is offered.
    * @returns {Choice[]}
    */
-  reasons(photo, tags) {
+  reasons({ id, name }, tags) {
     return tags.map((tag) => ({
       words: tag,
       run: () => {
-        this.send(photo, { what: "operations", operation: { kind: "tag", tag, on: true }, says: `the tag “${tag}”` });
-        this.say(`${photo.name} has the tag “${tag}”.`);
+        this.send({ id, name }, { what: "operations", operation: { kind: "tag", tag, on: true }, says: `the tag “${tag}”` });
+        this.say(`${name} has the tag “${tag}”.`);
       },
     }));
   }

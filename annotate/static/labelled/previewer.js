@@ -1,4 +1,7 @@
-/** Asks for previews: at most one question is on its way, and only the latest is asked next. */
+/**
+ * Asks for previews: at most one question is on its way, and only the latest is asked next. Each answer is shown,
+ * so that a preview follows a hand that never rests.
+ */
 
 import { ApiError, post } from "../server/api.js";
 
@@ -15,6 +18,7 @@ export class Previewer {
   /** @type {{asked: string, id: number, revision: number, part: Part} | null} */
   #last = null;
   #busy = false;
+  #drops = 0; // how often nothing was to be shown any more
 
   /**
    * @param {Labelling} labelling
@@ -66,6 +70,7 @@ export class Previewer {
 
   /** Show nothing any more, whatever is still answered. */
   clear() {
+    this.#drops++;
     this.#wanted = null;
     this.#last = null;
     this.#show(null);
@@ -88,16 +93,17 @@ export class Previewer {
   }
 
   /**
-   * Show the answer to a question, unless another one has been asked since, or none is any more.
+   * Show the answer to a question, also where a newer one waits, unless previews have been dropped since.
    *
    * @param {Wanted} asked
    * @param {Document} document
    */
   async #answer(asked, { id, revision }) {
+    const drops = this.#drops;
     try {
       const part = await post(`api/photos/${id}/${asked.what}`, asked.body);
       const found = { asked: JSON.stringify(asked), id, revision, part };
-      if (this.#wanted !== asked || !this.#fits(found)) return;
+      if (this.#drops !== drops || !this.#fits(found)) return;
       this.#last = found;
       this.#show(part);
     } catch (error) {

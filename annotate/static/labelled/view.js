@@ -141,6 +141,17 @@ export class View extends Events {
   }
 
   /**
+   * How many screen pixels a point lies beside the photo; 0 on it.
+   *
+   * @param {number} x
+   * @param {number} y
+   */
+  beside(x, y) {
+    const [right, bottom] = this.toScreen(this.#photo.width, this.#photo.height);
+    return Math.hypot(x - within(x, this.left, right), y - within(y, this.top, bottom));
+  }
+
+  /**
    * First and last column in sight.
    *
    * @returns {Point}
