@@ -4,7 +4,7 @@
  * Written by `python -m tools.page_types` from the server's models; do not edit it by hand.
  */
 
-/** Lines along other ridges: second opinions first, then the cheapest. */
+/** Lines along other ridges: second opinions, then the cheapest ones. */
 export interface Alternatives {
   alternatives: ShownAlternative[];
 }
@@ -48,6 +48,7 @@ export interface Document {
   origins: { [name: string]: number };
   doubtful: number | null;
   doubt: string;
+  carried: string;
 }
 
 /** The line is drawn by hand. */
