@@ -1,9 +1,10 @@
 """The line of a neighbouring photo, carried over to a photo that shows the same place.
 
-Points of the ground near the line are found again in the other photo (SIFT: Lowe, *Distinctive image
-features from scale-invariant keypoints*, 2004). A camera that turns, or is far away, moves them all
-by one homography. So many that agree on one are no accident: the photos overlap, and the line is
-moved in the same way. Clouds move on their own, so nothing is looked for high above the line.
+Points of the ground near the line are found again in the other photo (SIFT: Lowe, *Distinctive
+image features from scale-invariant keypoints*, 2004). A camera that turns, or is far away, moves
+all of them by one homography. So many that agree on one are no accident: the photos overlap, and
+the line is moved in the same way. Clouds move on their own, so nothing is looked for high above the
+line.
 """
 
 from __future__ import annotations
