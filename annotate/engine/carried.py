@@ -24,7 +24,7 @@ SIDE = 480
 AGREEING = 16
 """Points that have to agree before photos are said to overlap."""
 
-RADIUS = 0.01
+RADIUS = 0.0125
 """Part of the height by which the line may lie beside where it is carried to."""
 
 _MOST = 2000  # points of a photo
@@ -34,7 +34,7 @@ _BETTER = 0.8  # how much nearer the best match has to be than the next one
 _BESIDE = 3.0  # pixels of the reduced photo by which a point may miss its place
 _BACK = 0.02  # part of the width by which a turned line may run back over itself, as at a tower
 _LEAST = 0.1  # part of the width below which a piece of a line says nothing
-_WITHIN = 1.0  # pixels that the points of the stroke lie beside the line at the most
+_WITHIN = 2.0  # pixels that the points of the stroke lie beside the line at the most
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ def motion_between(before: U8, line: Skyline, photo: U8) -> tuple[F64 | None, in
 
 
 def _scale(photo: U8) -> float:
-    return min(SIDE / max(photo.shape[:2]), 1.0)
+    return float(min(SIDE / max(photo.shape[:2]), 1.0))
 
 
 def _points(photo: U8) -> tuple[F32, F32]:
@@ -116,7 +116,7 @@ def _points(photo: U8) -> tuple[F32, F32]:
     scale = _scale(photo)
     size = [max(round(side * scale), 1) for side in photo.shape[1::-1]]
     grey = cv2.resize(cv2.cvtColor(photo, cv2.COLOR_RGB2GRAY), size, interpolation=cv2.INTER_AREA)
-    finder = cv2.SIFT_create(nfeatures=_MOST, contrastThreshold=_CONTRAST)
+    finder = cv2.SIFT.create(nfeatures=_MOST, contrastThreshold=_CONTRAST)
     found, known = finder.detectAndCompute(grey, None)
     if not found:
         return np.zeros((0, 2), np.float32), np.zeros((0, 128), np.float32)
