@@ -30,6 +30,7 @@ from benchmarks import (
     methods,
     recordings,
     robustness,
+    sequence,
     speed,
     visibility,
 )
@@ -85,6 +86,7 @@ def _parts(
         parts["methods"] = lambda: methods.compared(web, sky) + _sky_told(unseen)
         parts["visibility"] = lambda: visibility.denied([web, *others], Models(models))
         parts["gestures"] = lambda: gestures.measured(data, models)
+        parts["sequence"] = lambda: sequence.measured(data, models)
         parts["labelling"] = lambda: labelling.measured(web, data, sky)
     parts["samples"] = lambda: accuracy.rendered(SAMPLES)
     parts["speed"] = lambda: speed.measured(web, SAMPLES)

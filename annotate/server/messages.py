@@ -240,6 +240,9 @@ class Document(BaseModel):
     """What the detector says of its proposal where it is no skyline, or not everywhere; nothing
     once somebody has worked on the photo."""
 
+    carried: str
+    """The photo from which the line is carried over, where nothing else was done to it."""
+
     @classmethod
     def of(cls, session: Session, doubtful: int | None, kept: int | None = None) -> Document:
         """Show a session; hold its lock meanwhile."""
@@ -271,7 +274,8 @@ class Document(BaseModel):
             kept=kept,
             origins=dict(zip(ORIGINS, counts, strict=True)),
             doubtful=doubtful,
-            doubt=wire.doubt if state.status == "to do" else "",
+            doubt=wire.doubt if state.status == "to do" and not state.carried else "",
+            carried=state.carried,
         )
 
 

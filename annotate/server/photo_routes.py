@@ -20,6 +20,7 @@ from annotate.server.messages import (
 )
 from annotate.store.operations import Rough
 from annotate.store.store import StaleError
+from annotate.work.carrying import carry_over
 from annotate.work.session import Session
 from annotate.work.workbench import Workbench
 from skyline_viz.diagnosis.explanation import explain_pixel
@@ -33,8 +34,12 @@ BLIND = "the photo is labelled blind, so nothing of the detector is shown."
 
 @router.get("")
 def document(bench: Bench, photo: PhotoId) -> Document:
-    """A photo with everything that was done to it; the next one is prepared meanwhile."""
+    """A photo with everything that was done to it; the next one is prepared meanwhile.
+
+    Where it continues a sequence, the line of its neighbour is proposed.
+    """
     session = bench.session(photo)
+    carry_over(bench, session)
     bench.prepare_after(photo)
     with session.lock:
         return Document.of(session, bench.doubts.get(photo))

@@ -79,12 +79,13 @@ toolbar.on("tool", ({ id, name, title }) => {
   labelling.say(`${name}. ${title}`);
 });
 labelling.on("document", ({ fresh }) => {
-  const { doubtful = null, doubt = "" } = labelling.document ?? {};
+  const { doubtful = null, doubt = "", carried = "" } = labelling.document ?? {};
   if (!fresh) return;
   if (doubtful !== null) {
     line.goTo(doubtful);
     labelling.say(`A diagnosis doubts the truth around column ${doubtful}.`);
-  } else if (doubt) labelling.say(doubt);
+  } else if (carried) labelling.say(`The line is carried over from ${carried}; Undo gives the detector's own.`);
+  else if (doubt) labelling.say(doubt);
 });
 
 listen(table, (event) => {

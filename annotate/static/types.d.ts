@@ -48,6 +48,7 @@ export interface Document {
   origins: { [name: string]: number };
   doubtful: number | null;
   doubt: string;
+  carried: string;
 }
 
 /** The line is drawn by hand. */

@@ -19,8 +19,9 @@ from annotate.store.labels import Status
 from annotate.store.lines import Line
 from annotate.store.operations import (
     LOGGED,
+    Carry,
     Change,
-    Edit,
+    Drawn,
     Logged,
     Open,
     Redo,
@@ -91,12 +92,19 @@ class State:
     """Id of the last operation that is more than a look at the photo; 0 before the first one."""
 
     @property
-    def done(self) -> tuple[Edit, ...]:
+    def done(self) -> tuple[Drawn, ...]:
         """Edits that hold, oldest first."""
         return tuple(one.change for one in self.steps if not isinstance(one.change, SetStatus))
 
     @property
-    def undone(self) -> tuple[Edit, ...]:
+    def carried(self) -> str:
+        """The photo from which the line is carried over, where nothing else was done to it."""
+        if len(self.done) != 1 or not isinstance(self.done[0], Carry):
+            return ""
+        return self.done[0].name
+
+    @property
+    def undone(self) -> tuple[Drawn, ...]:
         """Edits that were taken back, the next one to redo last."""
         return tuple(one for one in self.taken if not isinstance(one, SetStatus))
 
@@ -149,7 +157,8 @@ class State:
         if isinstance(change, SetStatus):
             status, edits = change.status, self.edits
         else:
-            status, edits = _touched(self.status), change.on(self.edits)
+            status = self.status if isinstance(change, Carry) else _touched(self.status)
+            edits = change.on(self.edits)
         return replace(self, steps=_thinned((*self.steps, step)), status=status, edits=edits)
 
     def _undone(self, *, with_status: bool) -> State:

@@ -113,12 +113,14 @@ class Forbid(_Operation):
         return edits.forbid(self.points, self.radius, allow=self.allow)
 
 
-class Rough(_Operation):
-    """A rough stroke, along which the line snaps."""
-
+class _Stroke(_Operation):
     points: Points
     radius: Annotated[int, Field(ge=1, le=1000)] | None = None
     """What the hand is uncertain by, in pixels; the photo's height says it where nobody does."""
+
+
+class Rough(_Stroke):
+    """A rough stroke, along which the line snaps."""
 
     times: Annotated[list[Time], Field(max_length=5000)] = []
     """When each point was reached, in milliseconds; empty where nobody knows."""
@@ -132,6 +134,21 @@ class Guide(Rough):
     def on(self, edits: Edits) -> Edits:
         """Edits with the guide."""
         return edits.guide(self.points, self.radius, self.times)
+
+
+class Carry(_Stroke):
+    """The line of a neighbouring photo is carried over to this one, where it snaps.
+
+    The program does so by itself, to propose: nobody has worked on the photo then.
+    """
+
+    kind: Literal["carried"] = "carried"
+    name: Annotated[str, Field(min_length=1, max_length=4096)]
+    """The photo from which it is, as a file below the folder."""
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with a guide along the line as it was carried over."""
+        return edits.guide(self.points, self.radius)
 
 
 class Side(_Operation):
@@ -248,15 +265,18 @@ Edit: TypeAlias = Annotated[
     | Release,
     Field(discriminator="kind"),
 ]
-"""What changes the line."""
+"""What the page does to change the line."""
 
-Change: TypeAlias = Edit | SetStatus
+Drawn: TypeAlias = Edit | Carry
+"""What changes the line, whoever does it."""
+
+Change: TypeAlias = Drawn | SetStatus
 """What can be undone."""
 
 Operation: TypeAlias = Annotated[Edit | SetTag | SetStatus | Open, Field(discriminator="kind")]
 """Anything that the page does to a photo, but for undo and redo."""
 
-Logged: TypeAlias = Annotated[Operation | Undo | Redo, Field(discriminator="kind")]
+Logged: TypeAlias = Annotated[Operation | Carry | Undo | Redo, Field(discriminator="kind")]
 """Anything that is kept in the log."""
 
 LOGGED: TypeAdapter[Logged] = TypeAdapter(Logged)
@@ -285,6 +305,8 @@ def spoken(change: Change) -> str:
         return change.status
     if isinstance(change, Forbid) and change.allow:
         return "the eraser stroke"
+    if isinstance(change, Carry):
+        return f"the line carried over from {change.name}"
     if isinstance(change, Side):
         return "all above is sky" if change.ground == "sky" else "all below is terrain"
     if isinstance(change, Hide) and not change.hidden:

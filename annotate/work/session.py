@@ -6,6 +6,8 @@ import threading
 from functools import cached_property
 from time import sleep
 
+import numpy as np
+
 from annotate.engine.edits import EditError, Edits
 from annotate.engine.live_wire import LiveWire
 from annotate.engine.opinions import opinions
@@ -14,6 +16,7 @@ from annotate.store.label_table import require_fit
 from annotate.store.lines import Line
 from annotate.store.opened import Opened
 from annotate.store.operations import (
+    Carry,
     Edit,
     Found,
     Left,
@@ -65,6 +68,8 @@ class Session:
         """
         self.photo, self.label, self.blind = photo, label, blind
         self.lock = threading.RLock()
+        self.compared: set[tuple[int, int]] = set()
+        """Neighbours, by photo and revision, whose lines were tried as a proposal."""
         self._store = store
         self._opened = Opened(store, photo)
         self.pixels: U8 = self._opened.pixels
@@ -133,6 +138,27 @@ class Session:
         row, left = self.wire.clicked(*where, operation.within, lifted)
         piece = Left(points=list(left.points), radius=left.radius) if left else None
         return operation.model_copy(update={"found": Found(row=row, left=piece)})
+
+    def carry(self, carried: Carry) -> None:
+        """Propose a line that is carried over, where the detector proposes another one.
+
+        Nothing is done once somebody has worked on the photo, or where it is labelled blind.
+
+        Raises:
+            EditError: It lies outside the photo.
+            PathError: The line of this photo does not lead along it.
+            PhotoError: The photo's file holds other pixels than those that are open.
+            StoreError: It could not be kept. In all cases nothing has changed.
+        """
+        with self.lock:
+            if self.blind or self.state.revision:
+                return
+            edits = carried.on(self.wire.edits)
+            line = self.wire.preview_guide(carried.points, carried.radius)
+            if np.array_equal(line.rows, self.wire.skyline.rows):
+                return
+            self._confirm()
+            self._edit(edits, self._asked(carried, 0, None))
 
     def undo(self, revision: int, id: str | None = None) -> int:  # noqa: A002
         """Take the last edit or status back; arguments, result and errors are those of `apply`."""

@@ -62,6 +62,17 @@ test("from the next photo, Undo takes the status of the last one back, and goes 
   assert.equal(actions.undoes, "");
 });
 
+test("where the next photo begins with a line that is carried over, it is said, and Undo is of that line", async () => {
+  const undo_what = "the line carried over from hill-1.png";
+  Object.assign(server.documents.get(2), { carried: "hill-1.png", can_undo: true, undo_what });
+  await actions.finish("accepted");
+  assert.match(said.at(-1).text, /carried over from hill-1\.png; Undo gives the detector's own\.$/);
+  assert.equal(actions.undoes, undo_what);
+  said.at(-1).undo();
+  await quiet();
+  assert.deepEqual([status(1), labelling.document.id], ["to do", 1]);
+});
+
 test("the button beside the words does the same", async () => {
   await actions.finish("needs review");
   said.at(-1).undo();

@@ -215,14 +215,15 @@ export class Actions extends Events {
     const next = labelling.following();
     if (!next) return " No photo is to do any more.";
     if (!await labelling.open(next.id)) return null;
-    if (done) this.#follow([[done]]);
+    if (done && !labelling.document?.carried) this.#follow([[done]]); // else Undo is of what was carried over
     return this.#doubts();
   }
 
-  /** What a diagnosis, or else the detector, doubts of the photo that is open; nothing most often. */
+  /** What a diagnosis or the detector doubts of the photo that is open, or where its line is from; nothing most often. */
   #doubts() {
-    const { doubtful = null, doubt = "" } = this.#labelling.document ?? {};
+    const { doubtful = null, doubt = "", carried = "" } = this.#labelling.document ?? {};
     if (doubtful !== null) return ` A diagnosis doubts the truth around column ${doubtful} of this one.`;
+    if (carried) return ` The line of this one is carried over from ${carried}; Undo gives the detector's own.`;
     return doubt && ` The detector says of this one: ${doubt}`;
   }
 

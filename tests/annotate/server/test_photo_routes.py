@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from skyline_viz import render
+from skyline_viz.photo import write_photo
 from testing.detections import unseen
 from testing.labelling import asked, served, write_hills
 
@@ -107,3 +109,23 @@ def test_a_doubted_proposal_is_said_until_somebody_has_worked_on_it(tmp_path):
         assert "no sky" in shown["doubt"]
         assert shown["hidden"] == []
         assert operate(client, 1, kind="anchor", column=30, row=5)["doubt"] == ""
+
+
+def test_what_is_carried_over_is_told_until_somebody_works_on_it(tmp_path):
+    scene = render("clear", 3, 640, 480).photo
+    for name, left in (("pan-1", 100), ("pan-2", 140)):
+        write_photo(tmp_path / f"{name}.png", scene[20:260, left : left + 400])
+    with served(tmp_path) as client:
+        own = client.get("/api/photos/2").json()
+        assert own["carried"] == ""
+        operate(client, 1, kind="anchor", column=200, row=160)
+        operate(client, 1, kind="status", status="accepted")
+        shown = client.get("/api/photos/2").json()
+        assert (shown["carried"], shown["status"]) == ("pan-1.png", "to do")
+        assert shown["undo_what"] == "the line carried over from pan-1.png"
+        assert shown["rows"] != own["rows"]
+        back = client.post("/api/photos/2/undo", json=asked()).json()
+        assert (back["carried"], back["rows"]) == ("", own["rows"])
+        forged = {"kind": "carried", "points": [[1, 2]], "radius": 3, "name": "x"}
+        answer = client.post("/api/photos/2/operations", json=asked(operation=forged))
+        assert answer.status_code == 422  # the program alone carries

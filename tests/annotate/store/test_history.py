@@ -207,6 +207,10 @@ def test_a_checkpoint_of_another_version_counts_as_none(monkeypatch):
         ({"kind": "hidden", "first": 1, "last": 2}, "the hidden columns"),
         ({"kind": "hidden", "first": 1, "last": 2, "hidden": False}, "the columns shown again"),
         ({"kind": "release", "first": 1, "last": 2}, "the release of the columns"),
+        (
+            {"kind": "carried", "points": [[1, 2]], "radius": 3, "name": "a.png"},
+            "the line carried over from a.png",
+        ),
         ({"kind": "status", "status": "needs review"}, "needs review"),
     ],
 )

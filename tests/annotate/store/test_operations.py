@@ -29,6 +29,10 @@ DONE = {
     ),
     "drawn": ({"first": 7, "rows": [1, 2]}, EDITS.draw(7, [1, 2])),
     "hidden": ({"first": 7, "last": 9}, EDITS.hide(7, 9)),
+    "carried": (
+        {"points": [[1, 2], [9, 4]], "radius": 3, "name": "hill-0.png"},
+        EDITS.guide([(1, 2), (9, 4)], 3),
+    ),
     "release": ({"first": 0, "last": 9}, EDITS.release(0, 9)),
 }
 
