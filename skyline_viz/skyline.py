@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 from typing import Literal
 
@@ -32,6 +33,7 @@ PAINTS: dict[Paint, tuple[int, int, int]] = {"red": (255, 0, 0), "blue": (0, 0, 
 """Red, green and blue of each paint."""
 
 _CSV_HEADER = ["column", "row", "visible"]
+_MARGIN = "margin"
 
 
 class SkylineError(ValueError):
@@ -211,40 +213,78 @@ class Skyline:
             raise SkylineError("no pixel is painted in pure red or pure blue")
         return cls(rows=fill(column_ends(painted)[0], visible), visible=visible)
 
-    def write_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write ``column,row,visible``, a line a column; `visible` is 1 or 0."""
+    def write_csv(
+        self, path: str | os.PathLike[str], margins: npt.NDArray[np.floating] | None = None
+    ) -> None:
+        """Write ``column,row,visible``, a line a column; `visible` is 1 or 0.
+
+        Args:
+            path: Where to.
+            margins: ``(W,)`` how sure each column is, as a fourth value ``margin``; ``inf`` where
+                no other line is possible.
+
+        Raises:
+            SkylineError: There is another number of margins.
+        """
         columns = map(str, range(self.width))
         visible = map("01".__getitem__, self.visible.tolist())
-        lines = map(",".join, zip(columns, _in_digits(self.rows), visible, strict=True))
-        write_text(path, "\n".join([",".join(_CSV_HEADER), *lines, ""]))
+        header, parts = [*_CSV_HEADER], [columns, _in_digits(self.rows), visible]
+        if margins is not None:
+            header.append(_MARGIN)
+            parts.append(f"{margin:.6g}" for margin in self._checked(margins))
+        lines = map(",".join, zip(*parts, strict=True))
+        write_text(path, "\n".join([",".join(header), *lines, ""]))
+
+    def _checked(self, margins: npt.NDArray[np.floating]) -> list[float]:
+        """Margins as numbers of Python, one a column."""
+        if np.shape(margins) != (self.width,):
+            raise SkylineError(f"{self.width} rows, but margins of the shape {np.shape(margins)}")
+        told: list[float] = np.asarray(margins, np.float64).tolist()
+        return told
 
     @classmethod
     def read_csv(cls, path: str | os.PathLike[str]) -> "Skyline":
-        """Read what `write_csv` wrote.
+        """Read what `write_csv` wrote, with or without margins, which are passed over.
 
         Raises:
             SkylineError: Another header, a missing column, or a value that is no number.
         """
         with _naming(path), Path(path).open(newline="", encoding="utf-8-sig") as file:
             lines = [line for line in csv.reader(file) if line]
-            if not lines or lines[0] != _CSV_HEADER:
+            if not lines or lines[0] not in (_CSV_HEADER, [*_CSV_HEADER, _MARGIN]):
                 raise SkylineError("the first line is not column,row,visible")
-            for number, line in enumerate(lines[1:]):
-                if len(line) != 3 or line[0] != str(number) or line[2] not in ("0", "1"):
+            header, *lines = lines
+            for number, line in enumerate(lines):
+                well = len(line) == len(header) and line[0] == str(number)
+                if not well or line[2] not in ("0", "1"):
                     raise SkylineError(f"the line of column {number} is {','.join(line)!r}")
             return cls(
-                rows=[float(row) for _, row, _ in lines[1:]],  # type: ignore[arg-type]
-                visible=np.array([visible == "1" for _, _, visible in lines[1:]], bool),
+                rows=[float(line[1]) for line in lines],  # type: ignore[arg-type]
+                visible=np.array([line[2] == "1" for line in lines], bool),
             )
 
-    def write_json(self, path: str | os.PathLike[str]) -> None:
-        """Write ``{"format": "skyline", "version": 1, "rows": [...], "visible": [...]}``."""
-        document = {
+    def write_json(
+        self, path: str | os.PathLike[str], margins: npt.NDArray[np.floating] | None = None
+    ) -> None:
+        """Write ``{"format": "skyline", "version": 1, "rows": [...], "visible": [...]}``.
+
+        Args:
+            path: Where to.
+            margins: ``(W,)`` how sure each column is, as a list ``margins``; null where no other
+                line is possible.
+
+        Raises:
+            SkylineError: There is another number of margins.
+        """
+        document: dict[str, object] = {
             "format": "skyline",
             "version": 1,
             "rows": self.rows.tolist(),
             "visible": self.visible.tolist(),
         }
+        if margins is not None:
+            told = self._checked(margins)
+            document["margins"] = [float(f"{one:.6g}") if isfinite(one) else None for one in told]
         write_text(path, json.dumps(document) + "\n")
 
     @classmethod

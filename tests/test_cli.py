@@ -136,7 +136,7 @@ def test_the_program_detects(tmp_path):
     photo = write_scene(tmp_path / "in" / "a.png")
     done = program("detect", photo, "--out", "out", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
-    assert files(tmp_path / "out") == ["a.csv"]
+    assert files(tmp_path / "out") == ["a.csv", "run.json", "skylines.csv"]
 
 
 def test_the_program_tells_what_is_wrong(tmp_path):

@@ -299,6 +299,7 @@ def test_csv_from_other_programs(tmp_path, content):
         b"column,row,visible\n",
         b"column,row,visible\n0,3\n",
         b"column,row,visible\n0,3,1,9\n",
+        b"column,row,visible,margin\n0,3,1\n",
         b"column,row,visible\n0,high,1\n",
         b"column,row,visible\n0,nan,1\n",
         b"column,row,visible\n0,inf,1\n",

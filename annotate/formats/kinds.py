@@ -85,7 +85,7 @@ def _other_kind(document: dict[str, Any]) -> str:
 
 
 def _kind_of_csv(first: str) -> str:
-    if first == "column,row,visible":
+    if first in ("column,row,visible", "column,row,visible,margin"):
         return "csv"
     if "region_shape_attributes" in first:
         return "CSV of the VGG Image Annotator; export COCO instead"

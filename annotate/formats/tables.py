@@ -7,6 +7,7 @@ from pathlib import Path
 from annotate.formats.common import Entry
 from annotate.formats.importing import Task
 from skyline_viz.datasets.truths import begins_like_a_skyline, read_truth
+from skyline_viz.running.photo_table import is_table
 
 
 def write_csv(entries: list[Entry], folder: Path) -> None:
@@ -20,7 +21,7 @@ def read_csv(task: Task) -> None:
     files = [
         file
         for file in task.files
-        if file.suffix.lower() == ".csv"
+        if (file.suffix.lower() == ".csv" and not is_table(file))
         or (file.suffix.lower() == ".json" and begins_like_a_skyline(file))
     ]
     files.sort(key=lambda file: file.suffix.lower())  # of both, CSV counts

@@ -18,7 +18,12 @@ _LONGEST = 255 - len("-overlay.jpg")
 """Bytes of an output's name, without the longest ending that we put to it."""
 
 
-def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[NamedItem]:
+NO_PHOTOS = "which photos? Name at least one photo or folder."
+
+
+def collect(
+    paths: Sequence[Path], truths: Truths | None = None, taken: Sequence[str] = ()
+) -> list[NamedItem]:
     """Photos of a command line: files as they are, folders as data sets; each file once.
 
     A file that does not exist is an input, too: it fails when its turn comes.
@@ -26,6 +31,7 @@ def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[NamedIt
     Args:
         paths: Files and folders.
         truths: How to read the truths of data sets.
+        taken: Names that no photo's outputs may have.
 
     Raises:
         DatasetError: A folder holds no photo, or several data sets.
@@ -49,29 +55,23 @@ def collect(paths: Sequence[Path], truths: Truths | None = None) -> list[NamedIt
         say(f"{counted(len(again), 'file')} {links} done already: {listed(again)}.")
     items = list(found.values())
     plain = [_plain_name(item) for item in items]
-    names = output_names(items)
+    names = output_names(items, taken)
     pairs = list(zip(names, plain, strict=True))
     if long := [name for name, stem in pairs if name != stem and not _fits(stem)]:
         say(f"names too long for those of outputs are cut: {listed([*map(shortened, long)])}.")
     if renamed := [name for name, stem in pairs if name != stem and _fits(stem)]:
-        say(f"photos of the same name are told apart in the names of outputs: {listed(renamed)}.")
+        say(f"photos whose names are taken are told apart in those of outputs: {listed(renamed)}.")
     return [NamedItem(name, item) for name, item in zip(names, items, strict=True)]
 
 
-def no_photos(methods: Sequence[str]) -> str:
-    """What to say where no photo was named: it may stand where methods are named."""
-    swallowed = next((text for text in methods[1:] if Path(text).exists()), None)
-    if swallowed is None:
-        return "which photos? Name at least one photo or folder."
-    return f"{swallowed} was taken for a method; name photos before --method."
-
-
-def output_names(items: Sequence[DatasetItem]) -> list[str]:
+def output_names(items: Sequence[DatasetItem], taken: Sequence[str] = ()) -> list[str]:
     """A name for the outputs of each photo: its stem, and more only where stems clash.
 
     Names that differ in upper and lower case only clash, because on some disks their files do.
     """
     names = [_fitting(_plain_name(item)) for item in items]
+    reserved = {name.casefold() for name in taken}
+    names = [f"{name}-photo" if name.casefold() in reserved else name for name in names]
     longer: tuple[Callable[[DatasetItem], str], ...] = (
         lambda item: item.name.replace("/", "-"),
         lambda item: item.photo_path.name,
@@ -84,9 +84,9 @@ def output_names(items: Sequence[DatasetItem]) -> list[str]:
                     names[index] = name
     for clash in _clashes(names):
         for number, index in enumerate(clash[1:], start=2):
-            taken = {name.casefold() for name in names}
+            used = {name.casefold() for name in names}
             free = (f"{names[index]}-{more}" for more in count(number))
-            names[index] = next(name for name in free if name.casefold() not in taken)
+            names[index] = next(name for name in free if name.casefold() not in used)
     return names
 
 

@@ -12,9 +12,12 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias, get_args
 
 import tyro
 
+from skyline_viz.command_line.earlier_run import earlier
 from skyline_viz.command_line.messages import UsageError
-from skyline_viz.command_line.settings import BankFile, Preset
+from skyline_viz.command_line.settings import BankFile, Preset, RunFile
 from skyline_viz.config import DetectorConfig, refuse_gone
+from skyline_viz.methods.names import NAMES
+from skyline_viz.picture_files.kinds import PHOTO_SUFFIXES
 from skyline_viz.system.memory import loading
 from skyline_viz.system.settings import MethodError, spelt
 from skyline_viz.system.stand_ins import without
@@ -53,6 +56,10 @@ class Methods:
 
     preset: Preset = "default"
     """Where the settings below start from: the best that is known, or the published method."""
+
+    run: RunFile = None
+    """Settings, bank and sky model of an earlier run: its run.json or summary.json. Single settings
+    below still count."""
 
     config: DetectorConfig = field(default_factory=DetectorConfig)
     """Single settings of our detector."""
@@ -148,10 +155,11 @@ MethodOptions: TypeAlias = Annotated[Methods, tyro.conf.arg(name="")]
 
 
 def spelt_out(arguments: Sequence[str], masks: Container[str]) -> list[str]:
-    """A command line in which ``--sky`` of a sky model is ``--sky-model``.
+    """A command line in which each word stands where parsing takes it for what it is.
 
-    Where truths are read ``--sky`` says what is sky in masks, too. No value of a mask is called as
-    sky models are, so both can be meant, and told apart.
+    ``--sky`` of a sky model is ``--sky-model``: where truths are read ``--sky`` says what is sky in
+    masks, too. No value of a mask is called as sky models are, so both can be meant, and told
+    apart. A photo or folder after the methods of ``--method`` goes before them.
 
     Args:
         arguments: The words after the program's name.
@@ -159,24 +167,46 @@ def spelt_out(arguments: Sequence[str], masks: Container[str]) -> list[str]:
 
     >>> spelt_out(["evaluate", "hills", "--sky", "0", "--sky=large"], masks={"evaluate"})
     ['evaluate', 'hills', '--sky', '0', '--sky-model=large']
+    >>> spelt_out(["detect", "--method", "edges", "a.jpg"], masks={})
+    ['detect', 'a.jpg', '--method', 'edges']
     """
     reads_masks = bool(arguments) and arguments[0] in masks
     words: list[str] = []
+    moved: list[str] = []
+    named_so_far = -1  # methods since --method; -1 after another option
     for at, word in enumerate(arguments):
         option, equals, value = word.partition("=")
+        if word.startswith("--"):
+            named_so_far = 0 if word == "--method" else -1
+        elif named_so_far >= 0:
+            named_so_far += 1
+            if named_so_far > 1 and _is_photo(word):
+                moved.append(word)
+                continue
         named = value if equals else "".join(arguments[at + 1 : at + 2])
         if option == "--sky" and (not reads_masks or _SKY_MODEL.fullmatch(named)):
             words.append(f"--sky-model{equals}{value}")
         else:
             words.append(word)
-    return words
+    return words[:1] + moved + words[1:]
+
+
+def _is_photo(word: str) -> bool:
+    """Whether a word is a photo or folder, and names no method."""
+    path = Path(word)
+    if word in NAMES or path.suffix.lower() in (".npz", ".onnx"):
+        return False
+    return path.suffix.lower() in PHOTO_SUFFIXES or path.exists()
 
 
 def described(arguments: Sequence[str]) -> Methods:
     """What a command line says of our detector by short forms, looked up before it is parsed.
 
-    It decides about the defaults of all single settings, which parsing has to know: those of the
-    preset, or those that a bank brings.
+    It decides about the defaults of all single settings, which parsing has to know: those of an
+    earlier run, of the preset, or those that a bank brings.
+
+    Raises:
+        UsageError: The file of the earlier run is of no use, or a preset is named beside it.
 
     >>> described(["detect", "a.jpg", "--preset", "paper", "--config.delta", "2"]).config.name
     'paper'
@@ -186,9 +216,15 @@ def described(arguments: Sequence[str]) -> Methods:
     refuse_gone(word.rpartition(".")[2].replace("-", "_") for word in options)
     presets = [after for word, after in pairwise(words) if word == "--preset"]
     banks = [after for word, after in pairwise(words) if word == "--bank"]
-    short = ("--preset", "--bank", "--config.", "--sky-model")
+    short = ("--preset", "--bank", "--config", "--sky-model")
     ours = any(word.startswith(short) for word in words)
     config = DetectorConfig()
+    if runs := [Path(after) for word, after in pairwise(words) if word == "--config"]:
+        if presets:
+            raise UsageError("--config FILE and --preset both say where settings start; use one.")
+        trains = words[0] == "train" or "--folds" in words
+        known = earlier(runs[-1], with_bank=not banks and not trains)
+        return Methods(bank=known.bank, sky_model=known.sky, config=known.config, ours=True)
     if presets:
         if presets[-1] in get_args(Preset):
             config = DetectorConfig.presets()[presets[-1]]

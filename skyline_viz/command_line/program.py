@@ -27,6 +27,7 @@ from skyline_viz.command_line.messages import (
     say_what_is_left,
     tell,
 )
+from skyline_viz.command_line.run_record import remember
 from skyline_viz.command_line.sizes import limit
 from skyline_viz.running.batch import FULL, BatchError, sentence
 from skyline_viz.system.endings import AskedToEnd, asked_by_signals
@@ -59,9 +60,11 @@ def run_program(
     os.environ.setdefault("RUST_LOG", _QUIET)
     keep_freed()
     end_quickly()
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    remember(program, words)
     try:
         with asked_by_signals(), heard_by(once(lambda note: say(note, program))):
-            status = _run(program, parse, sys.argv[1:] if arguments is None else list(arguments))
+            status = _run(program, parse, words)
             sys.stdout.flush()
     except AskedToEnd as asked:
         with suppress(OSError):  # the terminal may be gone

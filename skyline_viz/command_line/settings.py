@@ -21,6 +21,9 @@ OptionalFolder: TypeAlias = Annotated[Path | None, tyro.conf.arg(metavar="DIR")]
 BankFile: TypeAlias = Annotated[Path | None, tyro.conf.arg(metavar="FILE")]
 """A file of a detector or filter bank, or None for the shipped one."""
 
+RunFile: TypeAlias = Annotated[Path | None, tyro.conf.arg(name="config", metavar="FILE")]
+"""run.json or summary.json of an earlier run, or None."""
+
 Switch: TypeAlias = tyro.conf.FlagCreatePairsOff[bool]
 """Off unless it is named."""
 

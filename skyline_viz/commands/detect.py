@@ -9,16 +9,27 @@ from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
-from skyline_viz.command_line.inputs import collect, no_photos, output_folder
+from skyline_viz.command_line.inputs import NO_PHOTOS, collect, output_folder
 from skyline_viz.command_line.messages import UsageError, counted, status_after, tell
 from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.run_record import RECORD, Beginning
 from skyline_viz.command_line.settings import Folder, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.running.batch import Failure, run
+from skyline_viz.running.photo_table import (
+    TABLE,
+    PhotoRow,
+    digest_of_content,
+    look_first,
+    sure,
+    write_table,
+)
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 from skyline_viz.system.names import columns_of, padded, shortened
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.method import Method
 
@@ -35,7 +46,8 @@ class Detect:
     """Photos, folders of photos, or data sets."""
 
     out: Folder = Path("skylines")
-    """Folder for NAME.csv: column, row of its first terrain pixel, and whether visible (1 or 0)."""
+    """Folder for NAME.csv: column, row of its first terrain pixel, whether visible (1 or 0), and
+    margin, small where the line is unsure; skylines.csv, how sure each photo is; run.json."""
 
     methods: MethodOptions = field(default_factory=Methods)
     """What detects; our detector with its default settings unless given."""
@@ -58,55 +70,65 @@ class Detect:
     def run(self) -> int:
         """Detect all photos; return the exit status."""
         if not self.photos:
-            raise UsageError(no_photos(self.methods.method))
-        inputs = collect(self.photos)
+            raise UsageError(NO_PHOTOS)
+        began = Beginning.now()
+        inputs = collect(self.photos, taken=(Path(TABLE).stem, Path(RECORD).stem))
         detector = self.methods.one()
         output_folder(self.out, (one.item for one in inputs))
         wide = max(columns_of(shortened(one.name)) for one in inputs)
-        failures = []
+        failures: list[Failure] = []
+        rows: list[PhotoRow] = []
         workers = foresee((one.item for one in inputs), self.workers)
         outcomes = run(partial(_detect, self, detector), inputs, workers=workers)
-        for outcome in outcomes:
+        for photo, outcome in zip(inputs, outcomes, strict=True):
             if isinstance(outcome, Failure):
                 failures.append(outcome)
-            else:
-                tell(outcome.line(wide))
-                if outcome.doubt:
-                    tell(f"{shortened(outcome.name)}: {outcome.doubt}")
-        written = len(inputs) - len(failures)
-        if written > 1:
-            tell(f"{counted(written, 'skyline')} in {self.out}")
+                rows.append(_failed(photo, outcome))
+                continue
+            rows.append(outcome.row)
+            tell(outcome.line(wide))
+            if outcome.doubt:
+                tell(f"{shortened(photo.name)}: {outcome.doubt}")
+        write_table(self.out / TABLE, rows)
+        began.write(self.out / RECORD, detector, self.methods.bank, self._options(), rows)
+        _sum_up(self.out, rows, wide)
         return status_after(failures)
+
+    def _options(self) -> dict[str, object]:
+        """What else was chosen, for the record of the run."""
+        names = ("mask", "overlay", "json", "workers", "max_megapixels")
+        return {"out": str(self.out), **{name: getattr(self, name) for name in names}}
 
 
 @dataclass(frozen=True)
 class _Found:
-    name: str
-    height: int
-    width: int
-    seconds: float
+    row: PhotoRow
     files: tuple[Path, ...]
     doubt: str
 
     def line(self, wide: int) -> str:
-        size = f"{self.width}x{self.height}"
-        files = " ".join(map(str, self.files))
-        return f"{padded(shortened(self.name), wide)}  {size:>9}  {self.seconds:6.3f} s  {files}"
+        row = self.row
+        height, width = row.size or (0, 0)
+        size, files = f"{width}x{height}", " ".join(map(str, self.files))
+        told = f"{sure(row.confidence or 0.0):>9}  {row.seconds:6.3f} s"
+        return f"{padded(shortened(row.name), wide)}  {size:>9}  {told}  {files}"
 
 
 def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
+    from skyline_viz.certainty.least_sure import least_sure
     from skyline_viz.running.warming import warm_up
 
     pixels = photo.item.photo()
     warm_up()
     found = detector.detect(pixels)
-    height, width = pixels.shape[:2]
+    line, margins = found.skyline, found.margins()
+    height = pixels.shape[0]
     path = options.out / photo.name  # with_suffix would cut names that hold a dot
     files = [path.with_name(f"{photo.name}.csv")]
-    found.skyline.write_csv(files[0])
+    line.write_csv(files[0], margins)
     if options.json:
         files.append(path.with_name(f"{photo.name}.json"))
-        found.skyline.write_json(files[-1])
+        line.write_json(files[-1], margins)
     if options.mask or options.overlay:
         import numpy as np
 
@@ -115,10 +137,37 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
 
         if options.mask:
             files.append(path.with_name(f"{photo.name}-mask.png"))
-            terrain = ~found.skyline.to_mask(height)
-            write_photo(files[-1], terrain.astype(np.uint8) * np.uint8(255))
+            write_photo(files[-1], (~line.to_mask(height)).astype(np.uint8) * np.uint8(255))
         if options.overlay:
             files.append(path.with_name(f"{photo.name}-overlay.jpg"))
-            write_photo(files[-1], draw_overlay(pixels, found.skyline))
-    doubt = found.visibility.doubt if found.visibility else ""
-    return _Found(photo.name, height, width, found.total_seconds, tuple(files), doubt)
+            write_photo(files[-1], draw_overlay(pixels, line))
+    seen = found.visibility
+    row = PhotoRow(
+        photo.name,
+        photo.item.photo_path,
+        sha256=digest_of_content(photo.item.photo_path),
+        size=(height, line.width),
+        confidence=found.confidence,
+        case=seen.case if seen else "",
+        least_sure=tuple(least_sure(margins, line.visible)),
+        seconds=found.total_seconds,
+    )
+    return _Found(row, tuple(files), seen.doubt if seen else "")
+
+
+def _failed(photo: NamedItem, failure: Failure) -> PhotoRow:
+    """What there is to know of a photo that failed."""
+    path = photo.item.photo_path
+    return PhotoRow(photo.name, path, digest_of_content(path), error=failure.reason)
+
+
+def _sum_up(out: Path, rows: Sequence[PhotoRow], wide: int) -> None:
+    """Say how many skylines there are, and of several which ones to look at first."""
+    good = [row for row in rows if not row.error]
+    if len(good) < 2:
+        return
+    tell(f"{counted(len(good), 'skyline')} in {out}; {TABLE} says how sure each is, {RECORD} how")
+    tell("Look at these first:")
+    for row in look_first(good):
+        where = f", least in columns {row.stretches}" if row.stretches else ""
+        tell(f"  {padded(shortened(row.name), wide)}  {sure(row.confidence or 0.0)}{where}")

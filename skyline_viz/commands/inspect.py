@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import tyro
 
 from skyline_viz import evaluation
-from skyline_viz.command_line.inputs import collect, no_photos, with_truth
+from skyline_viz.command_line.inputs import NO_PHOTOS, collect, with_truth
 from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
@@ -119,7 +119,7 @@ class Inspect:
     def run(self) -> int:
         """Detect, log and show; return the exit status."""
         if not self.photos:
-            raise UsageError(no_photos(self.methods.method))
+            raise UsageError(NO_PHOTOS)
         self._check_targets()
         inputs = collect(self.photos, self.truths)
         if self.truth and len(inputs) > 1:

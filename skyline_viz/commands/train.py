@@ -11,7 +11,7 @@ import tyro
 from skyline_viz import evaluation
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import GOOD, UsageError, counted, status_after, tell
-from skyline_viz.command_line.settings import Preset
+from skyline_viz.command_line.settings import Preset, RunFile
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig, TrainingConfig
@@ -67,6 +67,9 @@ class Train:
 
     preset: Preset = "default"
     """Where training starts from: the best that is known, or the published method."""
+
+    earlier: RunFile = None
+    """Settings of the detector of an earlier run: its run.json or summary.json."""
 
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""

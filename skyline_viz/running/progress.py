@@ -1,4 +1,4 @@
-"""A progress bar for people who wait, and silence for programs."""
+"""A progress bar for people who wait, and now and then a line where there is no terminal."""
 
 import sys
 import threading
@@ -11,9 +11,12 @@ if TYPE_CHECKING:
 PROGRESS_AFTER = 1.0
 """Seconds of work after which a progress bar appears."""
 
+LINE_EVERY = 60.0
+"""Seconds between two lines in a log: enough to see that a long run is alive."""
+
 
 class ProgressBar:
-    """A bar on stderr, once the work has taken a while; nothing unless stderr is a terminal.
+    """A bar on stderr, once the work has taken a while; a line a minute where that is no terminal.
 
     Lines that are printed meanwhile appear above it. Work behind somebody's back, in another thread
     than the first, has none.
@@ -23,7 +26,7 @@ class ProgressBar:
         self._total = total
         self._title = title
         self._done = 0
-        self._began = perf_counter()
+        self._began = self._told = perf_counter()
         self._shown: tuple[Progress, TaskID] | None = None
 
     def __enter__(self) -> Self:
@@ -36,13 +39,26 @@ class ProgressBar:
     def advance(self) -> None:
         """Count one more photo."""
         self._done += 1
-        if self._shown is None and self._done < self._total and _is_watched():
-            if perf_counter() - self._began < PROGRESS_AFTER:
-                return
-            self._shown = self._show()
+        now = perf_counter()
+        if self._shown is None and self._done < self._total and _is_first_thread():
+            if sys.stderr.isatty():
+                if now - self._began < PROGRESS_AFTER:
+                    return
+                self._shown = self._show()
+            elif now - self._told >= LINE_EVERY:
+                self._told = now
+                self._tell(now - self._began)
         if self._shown:
             progress, task = self._shown
             progress.update(task, completed=self._done)
+
+    def _tell(self, seconds: float) -> None:
+        """Write a line into a log."""
+        minutes = seconds / 60
+        left = minutes / self._done * (self._total - self._done)
+        done = f"{self._done} of {self._total} {self._title}"
+        print(f"{done} after {minutes:.0f} min, about {left:.0f} min left", file=sys.stderr)
+        sys.stderr.flush()
 
     def _show(self) -> "tuple[Progress, TaskID]":
         from rich.console import Console  # noqa: PLC0415  # a single photo never needs it
@@ -67,5 +83,5 @@ class ProgressBar:
         return progress, progress.add_task(self._title, total=self._total)
 
 
-def _is_watched() -> bool:
-    return sys.stderr.isatty() and threading.current_thread() is threading.main_thread()
+def _is_first_thread() -> bool:
+    return threading.current_thread() is threading.main_thread()

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.command_line.inputs import no_photos, output_names
+from skyline_viz.command_line.inputs import output_names
 
 
 @pytest.mark.parametrize(
@@ -33,10 +33,6 @@ def test_geopose_photos_are_called_after_their_folders():
     assert output_names(made[:1]) == ["n1"]
 
 
-def test_photos_that_were_taken_for_methods_are_named(tmp_path):
-    photo = tmp_path / "a.png"
-    photo.touch()
-    assert no_photos(["paper", str(photo)]) == (
-        f"{photo} was taken for a method; name photos before --method."
-    )
-    assert no_photos([str(photo)]) == "which photos? Name at least one photo or folder."
+def test_some_names_are_taken():
+    made = [sv.DatasetItem(name, Path(f"{name}.png")) for name in ("Run", "skylines", "ridge")]
+    assert output_names(made, taken=("run", "skylines")) == ["Run-photo", "skylines-photo", "ridge"]

@@ -1,5 +1,7 @@
 """What commands detect with: the short forms, and how they go together with what is named."""
 
+import json
+
 import pytest
 
 import skyline_viz as sv
@@ -149,3 +151,29 @@ def test_a_sky_model_that_would_not_run_is_refused(words):
     command = parse(["evaluate", ".", "--sky", "small", *words.split()])
     with pytest.raises(UsageError, match="runs no sky model, for its sky_weight is 0"):
         command.methods.chosen()
+
+
+def test_photos_among_methods_go_before_them(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("hills", "default", "b.npz"):
+        (tmp_path / name).mkdir()
+    words = "evaluate --method paper default b.npz x:Y hills gone.jpg --workers 1 hills"
+    moved = "evaluate hills gone.jpg --method paper default b.npz x:Y --workers 1 hills"
+    assert spelt_out(words.split(), masks=()) == moved.split()
+    alone = ["detect", "--method", "hills"]
+    assert spelt_out(alone, masks=()) == alone
+
+
+def test_an_earlier_run_says_where_settings_start(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    told = {"settings": {"x": {"config": {"delta": 9}, "sky": "large"}}}
+    (tmp_path / "run.json").write_text(json.dumps(told))
+    words = ["detect", "a.jpg", "--config", "run.json"]
+    asked = described(words)
+    assert (asked.config.delta, asked.sky_model, asked.ours) == (9, "large", True)
+    command = parse([*words, "--config.v", "0.25"])
+    assert command.methods.one().name == "default:v=0.25,delta=9,sky=large"
+    training = parse(["train", "hills", "--out", "b.npz", "--config", "run.json"]).training
+    assert training.detector.delta == 9
+    with pytest.raises(UsageError, match="both say where settings start"):
+        described([*words, "--preset", "paper"])

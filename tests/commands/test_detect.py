@@ -1,7 +1,10 @@
 """``skyline-viz detect``: what it writes, what it refuses, and what goes on past a fault."""
 
+import csv
 import hashlib
+import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,16 +12,23 @@ from PIL import Image
 
 import skyline_viz as sv
 from skyline_viz.commands import detect as detect_command
+from skyline_viz.running.photo_table import TABLE
 from skyline_viz.sky_model import SkyModel
 from testing.detections import NoSky
-from testing.programs.commands import HEIGHT, WIDTH, files, scene, write_scene
+from testing.programs.commands import HEIGHT, WIDTH, scene, write_scene
+from testing.programs.commands import files as all_files
+
+
+def files(folder):
+    """Files of a folder, without what a run says of itself."""
+    return [name for name in all_files(folder) if name not in (TABLE, "run.json")]
 
 
 def test_detect_writes_a_line_for_each_column(say, tmp_path):
     photo = write_scene(tmp_path / "in" / "Eiger.v2.png")
     status, out, err = say("detect", photo, "--out", "out")
     assert (status, err) == (0, "")
-    assert re.fullmatch(r"Eiger\.v2 +96x64 +\d\.\d{3} s  out/Eiger\.v2\.csv\n", out)
+    assert re.fullmatch(r"Eiger\.v2 +96x64 +\d+ % sure +\d\.\d{3} s  out/Eiger\.v2\.csv\n", out)
     assert files(tmp_path / "out") == ["Eiger.v2.csv"]
     found = sv.Skyline.read_csv(tmp_path / "out" / "Eiger.v2.csv")
     assert sv.a_err(found, scene(0)[1]) < 2
@@ -112,7 +122,7 @@ def test_photos_of_the_same_stem_do_not_overwrite_each_other(say, tmp_path):
     status, _, err = say("detect", *photos, photos[4], "--out", "out")
     assert status == 0
     assert files(tmp_path / "out") == ["x.jpg.csv", "x.png.csv", "y-2.csv", "y.csv", "z.csv"]
-    assert "told apart in the names of outputs: x.png, x.jpg, y-2." in err
+    assert "told apart in those of outputs: x.png, x.jpg, y-2." in err
     found = sv.Skyline.read_csv(tmp_path / "out" / "y-2.csv")
     assert sv.a_err(found, scene(3)[1]) < 2
 
@@ -161,11 +171,11 @@ def test_a_full_disk_ends_the_run_with_a_sentence(say, hills, monkeypatch):
 def test_an_interrupt_ends_with_130_and_leaves_no_half_file(say, hills, tmp_path, monkeypatch):
     write = sv.Skyline.write_csv
 
-    def interrupted(skyline, path):
+    def interrupted(skyline, path, margins):
         if path.stem == "p2":
             path.parent.mkdir(exist_ok=True)
             raise KeyboardInterrupt
-        write(skyline, path)
+        write(skyline, path, margins)
 
     monkeypatch.setattr(sv.Skyline, "write_csv", interrupted)
     status, _, err = say("detect", hills, "--out", "out", "--workers", "1")
@@ -192,3 +202,54 @@ def test_detect_says_what_is_wrong_with_a_data_set(say, tmp_path):
     status, _, errors = say("detect", tmp_path / "set", "--out", tmp_path / "out")
     assert status == 0
     assert "orphan" in errors
+
+
+def table(folder):
+    with (folder / TABLE).open(newline="") as file:
+        return {row["name"]: row for row in csv.DictReader(file)}
+
+
+def test_detect_says_how_sure_it_is(say, hills, tmp_path):
+    (tmp_path / "torn.png").write_bytes(b"torn")
+    status, out, _ = say("detect", hills, "torn.png", "--out", "out", "--json")
+    assert status == 1
+    rows = table(tmp_path / "out")
+    assert list(rows) == ["p0", "p1", "p2", "p3", "torn"]
+    least = min(["p0", "p1", "p2", "p3"], key=lambda name: float(rows[name]["confidence"]))
+    assert re.search(rf"Look at these first:\n  {least} +\d+ % sure, least in columns \d", out)
+    assert "torn.png" in rows["torn"]["error"]
+    for name in ("p0", "torn"):
+        content = Path(rows[name]["file"]).read_bytes()
+        assert rows[name]["sha256"] == hashlib.sha256(content).hexdigest()
+    found = sv.Detector().detect(sv.read_photo(hills / "images" / "p1.png"))
+    assert float(rows["p1"]["confidence"]) == pytest.approx(found.confidence, abs=1e-4)
+    assert (rows["p1"]["case"], rows["p1"]["width"]) == (found.visibility.case, str(WIDTH))
+    told = np.genfromtxt(tmp_path / "out" / "p1.csv", delimiter=",", names=True)
+    np.testing.assert_allclose(told["margin"], found.margins(), rtol=1e-4)
+    assert len(json.loads((tmp_path / "out" / "p1.json").read_text())["margins"]) == WIDTH
+
+
+def test_a_run_is_repeated_from_its_record(say, hills, tmp_path):
+    words = ("--config.delta", "2", "--config.v", "0.25")
+    assert say("detect", hills, "--out", "one", *words)[0] == 0
+    assert say("detect", hills, "--out", "two", "--config", "one/run.json")[0] == 0
+    for name in files(tmp_path / "one"):
+        assert (tmp_path / "one" / name).read_text() == (tmp_path / "two" / name).read_text()
+    told = [json.loads((tmp_path / out / "run.json").read_text()) for out in ("one", "two")]
+    assert told[0]["command"][:3] == ["skyline-viz", "detect", str(hills)]
+    assert told[0]["digest"] == told[1]["digest"]
+    assert told[0]["settings"] == told[1]["settings"]
+
+
+def test_photos_called_like_what_a_run_writes(say, tmp_path):
+    photos = [write_scene(tmp_path / "in" / name) for name in ("skylines.png", "run.png")]
+    status, _, err = say("detect", *photos, "--out", "out", "--json")
+    assert status == 0
+    assert "told apart in those of outputs: skylines-photo, run-photo." in err
+    assert set(table(tmp_path / "out")) == {"skylines-photo", "run-photo"}
+
+
+def test_a_photo_after_the_method_is_a_photo(say, tmp_path):
+    photo = write_scene(tmp_path / "in" / "a.png")
+    assert say("detect", "--method", "edges", photo, "--out", "out")[0] == 0
+    assert files(tmp_path / "out") == ["a.csv"]

@@ -73,7 +73,7 @@ def test_the_reference_gives_the_defaults_of_both_presets(field):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_every_option_that_a_page_names_exists(page):
-    known = {"--version"}
+    known = {"--version", "--tyro-print-completion"}
     for program, commands in PROGRAMS:
         known |= set().union(*(options_of(program, command) for command in commands))
     named = set(re.findall(r"(?<![\w-])--[a-z][a-z.-]*[a-z*]", page.read_text()))

@@ -1,4 +1,4 @@
-"""A progress bar on a terminal, and silence elsewhere."""
+"""A progress bar on a terminal, and a line now and then elsewhere."""
 
 import io
 import operator
@@ -33,6 +33,13 @@ def test_no_bar_for_a_moment(monkeypatch):
     monkeypatch.setattr(progress, "PROGRESS_AFTER", 1e9)
     list(run(operator.attrgetter("name"), tasks(3)))
     assert terminal.getvalue() == ""
+
+
+def test_a_line_now_and_then_in_a_file(monkeypatch, capsys):
+    times = iter([0.0, 30.0, 90.0, 100.0, 300.0])
+    monkeypatch.setattr(progress, "perf_counter", lambda: next(times))
+    list(run(operator.attrgetter("name"), tasks(4)))
+    assert capsys.readouterr().err == "2 of 4 photos after 2 min, about 2 min left\n"
 
 
 def test_no_bar_in_a_file(monkeypatch, capsys):

@@ -45,6 +45,7 @@ def test_xml():
         ("a.json", json.dumps({"shapes": []}), "labelme"),
         ("a.xml", "<annotations/>", "cvat"),
         ("a.csv", "column,row,visible\n0,1,1\n", "csv"),
+        ("a.csv", "column,row,visible,margin\n0,1,1,0.5\n", "csv"),
         ("a.csv", "filename,region_shape_attributes\n", "VGG"),
         ("a.csv", "", "with nothing in it"),
         ("a.PNG", "whatever", "mask"),
