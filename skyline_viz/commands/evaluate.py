@@ -16,6 +16,7 @@ from skyline_viz.command_line.messages import UsageError, counted, listed, say, 
 from skyline_viz.command_line.on_truth import OnTruth
 from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder
+from skyline_viz.evaluation.seen import photos_learned
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -82,6 +83,7 @@ class Evaluate(OnTruth):
             evaluation.write_evaluation(self.out, found, about=about, title=title, groups=groups)
             kept.remove()
         _print(title, found)
+        _tell_seen(dataset.name, found)
         tell(*(one.said for one in evaluation.all_paired(found.results, groups)))
         if self.out:
             tell(f"{listed(evaluation.FILES)} in {self.out}")
@@ -108,7 +110,8 @@ class Evaluate(OnTruth):
         chosen = self.methods.chosen(to_train=bool(folds))
         for one in chosen:
             learned = methods.learned_from(one)
-            if not folds and dataset in (learned, *learned.split(", ")):
+            told = bool(photos_learned(one))  # the photos themselves are then known again
+            if not folds and not told and dataset in (learned, *learned.split(", ")):
                 say(f"{one.name} was trained on {dataset}, so this is no test; see --folds.")
             elif dataset in sky_learned_from(one).split(", "):
                 say(
@@ -122,6 +125,19 @@ class Evaluate(OnTruth):
             return chosen, f"{one.name}, {folds or 'as it is'}"
         learned = methods.learned_from(one)
         return chosen, folds or f"filter bank trained on {learned or 'an unnamed data set'}"
+
+
+def _tell_seen(dataset: str, found: Evaluation) -> None:
+    """Say which photos were seen in training, whatever they are called and wherever they lie."""
+    for name, results in found.results.items():
+        seen = [one.name for one in results if one.seen]
+        if seen and len(seen) == len(results) and not found.folds:
+            say(f"{name} was trained on {dataset}, so this is no test; see --folds.")
+        elif seen:
+            say(
+                f"{name} has seen {len(seen)} of {len(results)} photos in training, or near copies "
+                f"of them, and their errors are no test: {listed(seen)}."
+            )
 
 
 def sky_learned_from(method: Method) -> str:

@@ -78,6 +78,10 @@ def write_summary(
         "folds": found.folds,
         "seed": found.seed,
         "summary": {name: _without_nan(one) for name, one in found.summaries.items()},
+        "seen_in_training": {
+            name: [one.name for one in results if one.seen]
+            for name, results in found.results.items()
+        },
         "compared": [asdict(one) for one in all_paired(found.results, groups) if one.photos],
         "settings": {name: _settings(one) for name, one in found.methods.items()},
         "failed": [asdict(failure) for failure in found.failures],

@@ -50,6 +50,10 @@ class PhotoResult:
     called_invisible: float = 0.0
     """Share of the truth's visible columns that the detection calls not visible, in [0, 1]."""
 
+    seen: str = ""
+    """How the photo was seen in training, ``exact`` or ``near``; empty where it was not, as far as
+    is known. With it the error is no test."""
+
     errors: F32 | None = field(default=None, compare=False, repr=False)
     """``(W,)`` row minus true row of each column, in pixels, NaN where the truth is not visible;
     None in results of somebody's who kept none."""

@@ -12,6 +12,7 @@ import numpy as np
 from skyline_viz.datasets.item import Item, photo_and_truth
 from skyline_viz.datasets.predictions import Predictions, size_of
 from skyline_viz.evaluation.results import PhotoResult
+from skyline_viz.evaluation.seen import seen_in_training
 from skyline_viz.method import Method
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.resume import Codec, Kept, digest_of_item, digest_of_method
@@ -99,7 +100,8 @@ def compare_photo(task: PhotoTask) -> PhotoResult:
     photo, truth = photo_and_truth(task.item)
     warm_up()
     found = task.method.detect(photo)
-    return PhotoResult.of(task.name, found.skyline, truth, len(photo), found.total_seconds)
+    result = PhotoResult.of(task.name, found.skyline, truth, len(photo), found.total_seconds)
+    return replace(result, seen=seen_in_training(task.method, photo))
 
 
 def compare_lines(

@@ -105,3 +105,14 @@ def test_groups_and_splits_of_no_use_are_refused(say, hills, tmp_path):
     ):
         status, _, err = say("evaluate", hills, *words)
         assert (status, said in err) == (2, True), err
+
+
+def test_photos_seen_in_training_are_known_under_any_name(say, hills, tmp_path):
+    assert say("train", hills, "--out", "b.npz")[0] == 0
+    (tmp_path / "elsewhere").symlink_to(hills)
+    status, _, err = say("evaluate", "elsewhere", "--bank", "b.npz", "--out", "run")
+    assert (status, "b.npz was trained on elsewhere, so this is no test" in err) == (0, True)
+    with (tmp_path / "run" / "photos.csv").open(newline="") as file:
+        assert [line["seen"] for line in csv.DictReader(file)] == ["exact"] * 4
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["seen_in_training"]["b.npz"] == ["p0", "p1", "p2", "p3"]
