@@ -16,7 +16,6 @@ from skyline_viz.command_line.messages import UsageError, counted, listed, say, 
 from skyline_viz.command_line.on_truth import OnTruth
 from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder
-from skyline_viz.evaluation.seen import photos_learned
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -107,6 +106,8 @@ class Evaluate(OnTruth):
 
     def _methods(self, dataset: str, folds: str) -> tuple[Sequence[Method], str]:
         """What is to be tested and how; says so where that was trained on these very photos."""
+        from skyline_viz.evaluation.seen import photos_learned
+
         chosen = self.methods.chosen(to_train=bool(folds))
         for one in chosen:
             learned = methods.learned_from(one)
