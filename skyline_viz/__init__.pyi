@@ -12,6 +12,8 @@ from .datasets.layouts import Dataset as Dataset
 from .datasets.layouts import DatasetError as DatasetError
 from .datasets.layouts import DatasetItem as DatasetItem
 from .datasets.layouts import open_dataset as open_dataset
+from .datasets.predictions import Predictions as Predictions
+from .datasets.predictions import open_predictions as open_predictions
 from .detection import Detection as Detection
 from .detection import solve_detection as solve_detection
 from .detector import Detector as Detector

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from skyline_viz.arrays import F32, read_only
 from skyline_viz.bins import Bins
 from skyline_viz.config import FILTER_SIZES, DetectorConfig, EdgeSource
+from skyline_viz.datasets.fingerprints import is_fingerprint
 from skyline_viz.files import replacing
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError, Stored, opened
@@ -103,6 +104,10 @@ class FilterBank:
     provenance: Provenance = field(default_factory=Provenance)
     """What the bank was trained on."""
 
+    seen: tuple[str, ...] = ()
+    """Fingerprints of the training photos, by which they are known again; banks of earlier versions
+    have none."""
+
     def __repr__(self) -> str:
         """One line, as a console shows it."""
         side = self.filters.shape[-1]
@@ -151,7 +156,8 @@ class FilterBank:
 
     def header(self) -> dict[str, Any]:
         """What a file that holds the bank says of it."""
-        return {"bank": {"bins": asdict(self.bins), "provenance": asdict(self.provenance)}}
+        about = {"bins": asdict(self.bins), "provenance": asdict(self.provenance)}
+        return {"bank": {**about, "seen": [*self.seen]} if self.seen else about}
 
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
         """The arrays of a file that holds the bank."""
@@ -214,7 +220,7 @@ def read_bank(file: HeadedNpz, path: str | os.PathLike[str] | bytes) -> FilterBa
     _check_announced(file.arrays, bins.count)
     filters, samples = (file.read(part) for part in _DTYPES)
     try:
-        return FilterBank(filters, samples, bins, provenance)
+        return FilterBank(filters, samples, bins, provenance, _seen(told))
     except (ValueError, TypeError) as error:
         raise FilterBankError(f"{name} holds no valid filter bank: {error}.") from error
 
@@ -239,6 +245,18 @@ def _described(header: dict[str, Any]) -> tuple[Bins, Provenance]:
         raise
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
         raise NpzError("its header tells no bins or no provenance") from error
+
+
+def _seen(header: dict[str, Any]) -> tuple[str, ...]:
+    """The fingerprints that a header tells.
+
+    Raises:
+        NpzError: It tells something else.
+    """
+    seen = header.get("seen", [])
+    if not isinstance(seen, list) or not all(map(is_fingerprint, seen)):
+        raise NpzError("its header tells no fingerprints of photos")
+    return tuple(seen)
 
 
 def _check_announced(arrays: Mapping[str, Stored], count: int) -> None:

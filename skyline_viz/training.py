@@ -35,6 +35,7 @@ from skyline_viz._version import __version__
 from skyline_viz.arrays import F64, U8, Bool, Int, check_photo
 from skyline_viz.bins import Bins
 from skyline_viz.config import TrainingConfig
+from skyline_viz.datasets.fingerprints import fingerprint
 from skyline_viz.datasets.item import Item, photo_and_truth
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.filter_bank import FilterBank, Provenance
@@ -63,6 +64,9 @@ class GramMatrices:
 
     images: int
     """Number of photos."""
+
+    seen: tuple[str, ...] = ()
+    """Fingerprints of the photos."""
 
     def cropped(self, size: int) -> "GramMatrices":
         """Sums for smaller filters: the middle of a patch is a patch, and its sums are in there.
@@ -95,6 +99,7 @@ class GramMatrices:
             self.samples + other.samples,
             self.weights + other.weights,
             self.images + other.images,
+            self.seen + other.seen,
         )
 
 
@@ -165,7 +170,7 @@ def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> Gram
     index = config.bins.of(tensor_at(photo, rows, columns))
     patches = _patches(to_grey(photo), rows, columns, config.filter_size)
     sums, samples = _summed(np.column_stack([patches, targets]), index, config.bins)
-    return GramMatrices(sums, samples, samples.astype(np.float64), 1)
+    return GramMatrices(sums, samples, samples.astype(np.float64), 1, (fingerprint(photo),))
 
 
 def gather_item(config: TrainingConfig, seed: int, item: Item) -> GramMatrices:
@@ -219,6 +224,7 @@ def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = 
         filters=regress(sums, config.smoothness).astype(np.float32),
         samples=gram.samples,
         bins=config.bins,
+        seen=tuple(sorted({*gram.seen})),
         provenance=Provenance(
             dataset=dataset,
             images=gram.images,

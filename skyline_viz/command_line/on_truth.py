@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import tyro
 
 from skyline_viz import running
+from skyline_viz.command_line.folds import FoldOptions, Folds
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.methods import MethodOptions, Methods
@@ -31,8 +32,8 @@ class OnTruth:
     dataset: tyro.conf.Positional[Folder]
     """Folder of a data set with truths, in a published layout or plain."""
 
-    folds: int = 0
-    """Folds of a cross-validation, which trains on all folds but the one it tests; 0 is none."""
+    folds: FoldOptions = field(default_factory=Folds)
+    """Whether photos are cross-validated, and how they are dealt into folds."""
 
     methods: MethodOptions = field(default_factory=Methods)
     """What is tested; the detector with the settings below unless given."""
@@ -58,7 +59,7 @@ class OnTruth:
         """
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
-        if self.seed and not self.folds:
+        if self.seed and not self.folds.asked:
             raise UsageError("--seed is that of a cross-validation, and --folds asks for none.")
         dataset = self.truths.open(self.dataset)
         return dataset, with_truth(dataset)

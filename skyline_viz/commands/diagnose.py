@@ -46,8 +46,10 @@ class Diagnose(OnTruth):
         if self.photo and self.photo not in {item.name for item in items}:
             raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
         workers, kept = self.begin("diagnose", dataset, items, self.out, RECORDING)
+        groups = self.folds.groups(items) if self.folds.asked else None
+        folds = self.folds.dealt(items, groups)
         assigned = evaluation.assign(
-            items, [self._method()], self.folds or None,
+            items, [self._method()], folds,
             seed=self.seed, workers=workers, kept=kept,
         )  # fmt: skip
         ((name, tasks),) = assigned.tasks.items()
@@ -65,7 +67,7 @@ class Diagnose(OnTruth):
         self._tell(dataset.name, found)
         failures = [*assigned.failures[name], *failed]
         if self.report:
-            how = f"{name}, {f'{self.folds}-fold cross-validation' if self.folds else 'as it is'}"
+            how = f"{name}, {self.folds.said(folds, groups) or 'as it is'}"
             failures += report_data_set(
                 self.report, dataset, how, tasks, failures, diagnosed=found, workers=workers
             )
@@ -73,7 +75,7 @@ class Diagnose(OnTruth):
         return status_after(failures)
 
     def _method(self) -> Method:
-        return self.methods.one(to_train=bool(self.folds))
+        return self.methods.one(to_train=self.folds.asked)
 
     def _tell(self, name: str, found: Sequence[Diagnosed]) -> None:
         if self.photo:

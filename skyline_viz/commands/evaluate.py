@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from skyline_viz import evaluation, methods
-from skyline_viz.command_line.messages import (
-    counted,
-    listed,
-    say,
-    status_after,
-    tell,
-    tell_drawn,
+from skyline_viz.command_line.lines import (
+    LineFolders,
+    about_lines,
+    open_lines,
+    status_after_lines,
 )
+from skyline_viz.command_line.messages import UsageError, counted, listed, say, tell, tell_drawn
 from skyline_viz.command_line.on_truth import OnTruth
 from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder
@@ -23,6 +22,7 @@ if TYPE_CHECKING:
 
     from skyline_viz.datasets import Dataset
     from skyline_viz.evaluation import Evaluation
+    from skyline_viz.evaluation.cross_validation import Tested
     from skyline_viz.method import Method
     from skyline_viz.running.batch import Failure
 
@@ -32,7 +32,12 @@ class Evaluate(OnTruth):
     """Compare detected skylines with the truth of a data set."""
 
     out: OptionalFolder = None
-    """Folder for summary.json, photos.csv and histogram.png; made where it is missing."""
+    """Folder for summary.json, photos.csv, histogram.png, error curves and the errors of columns;
+    made where it is missing."""
+
+    predictions: LineFolders = ()
+    """Lines that exist as files, each [LABEL=]DIR: another method's, a network's, a person's. CSV,
+    JSON or masks, called as their photos; instead of a method, or beside those of --method."""
 
     report: ReportFile = None
     """Write a report to be mailed: one HTML file with figures, photos, causes and stages."""
@@ -41,14 +46,27 @@ class Evaluate(OnTruth):
         """Evaluate all photos that have a truth; return the exit status."""
         check_report(self.report)
         dataset, items = self.open()
+        lines = open_lines(self.predictions, items, self.truths)
+        if self.report and lines and not self.methods.given:
+            raise UsageError(
+                "a report shows stages, which files of lines have not; name a --method."
+            )
         workers, kept = self.begin("evaluate", dataset, items, self.out)
-        chosen, how = self._methods(dataset.name)
+        groups = self.folds.groups(items)
+        folds = self.folds.dealt(items, groups)
+        said = self.folds.said(folds, groups)
+        chosen, how = (
+            self._methods(dataset.name, said) if not lines or self.methods.given else ([], "")
+        )
+        tested_ones: list[Tested] = [*chosen, *lines]
+        if not chosen:
+            how = f"lines of {listed([one.source for one in lines])}{said and f', {said}'}"
         found = (
             evaluation.cross_validate(
-                items, chosen, self.folds, seed=self.seed, workers=workers, kept=kept
+                items, tested_ones, folds, seed=self.seed, workers=workers, kept=kept
             )
-            if self.folds
-            else evaluation.evaluate(items, chosen, workers=workers, kept=kept)
+            if folds is not None
+            else evaluation.evaluate(items, tested_ones, workers=workers, kept=kept)
         )
         if done := kept.said("photo" if len(chosen) == 1 else "detection"):
             say(done)
@@ -59,14 +77,17 @@ class Evaluate(OnTruth):
                 "dataset": dataset.name,
                 "layout": dataset.layout,
                 "problems": [*dataset.problems, *dataset.left_out],
+                "predictions": {one.name: about_lines(one) for one in lines},
             }
-            evaluation.write_evaluation(self.out, found, about=about, title=title)
+            evaluation.write_evaluation(self.out, found, about=about, title=title, groups=groups)
             kept.remove()
         _print(title, found)
+        _tell_seen(dataset.name, found)
+        tell(*(one.said for one in evaluation.all_paired(found.results, groups)))
         if self.out:
             tell(f"{listed(evaluation.FILES)} in {self.out}")
         late = self._report(dataset, how, found, workers) if self.report else []
-        return status_after([*found.failures, *late])
+        return status_after_lines([*found.failures, *late], lines, len(items))
 
     def _report(
         self, dataset: Dataset, how: str, found: Evaluation, workers: int
@@ -83,13 +104,15 @@ class Evaluate(OnTruth):
             results=found.results, notes=notes, workers=workers,
         )  # fmt: skip
 
-    def _methods(self, dataset: str) -> tuple[Sequence[Method], str]:
+    def _methods(self, dataset: str, folds: str) -> tuple[Sequence[Method], str]:
         """What is to be tested and how; says so where that was trained on these very photos."""
-        folds = f"{self.folds}-fold cross-validation" if self.folds else ""
-        chosen = self.methods.chosen(to_train=bool(self.folds))
+        from skyline_viz.evaluation.seen import photos_learned
+
+        chosen = self.methods.chosen(to_train=bool(folds))
         for one in chosen:
             learned = methods.learned_from(one)
-            if not folds and dataset in (learned, *learned.split(", ")):
+            told = bool(photos_learned(one))  # the photos themselves are then known again
+            if not folds and not told and dataset in (learned, *learned.split(", ")):
                 say(f"{one.name} was trained on {dataset}, so this is no test; see --folds.")
             elif dataset in sky_learned_from(one).split(", "):
                 say(
@@ -103,6 +126,19 @@ class Evaluate(OnTruth):
             return chosen, f"{one.name}, {folds or 'as it is'}"
         learned = methods.learned_from(one)
         return chosen, folds or f"filter bank trained on {learned or 'an unnamed data set'}"
+
+
+def _tell_seen(dataset: str, found: Evaluation) -> None:
+    """Say which photos were seen in training, whatever they are called and wherever they lie."""
+    for name, results in found.results.items():
+        seen = [one.name for one in results if one.seen]
+        if seen and len(seen) == len(results) and not found.folds:
+            say(f"{name} was trained on {dataset}, so this is no test; see --folds.")
+        elif seen:
+            say(
+                f"{name} has seen {len(seen)} of {len(results)} photos in training, or near copies "
+                f"of them, and their errors are no test: {listed(seen)}."
+            )
 
 
 def sky_learned_from(method: Method) -> str:

@@ -2,6 +2,11 @@ from .cross_validation import Assigned as Assigned
 from .cross_validation import assign as assign
 from .cross_validation import cross_validate as cross_validate
 from .cross_validation import evaluate as evaluate
+from .curves import TOLERANCES as TOLERANCES
+from .curves import curve as curve
+from .dealing import deal as deal
+from .dealing import grouped as grouped
+from .dealing import read_split as read_split
 from .evaluated import Evaluation as Evaluation
 from .intervals import Interval as Interval
 from .intervals import resampled as resampled
@@ -12,6 +17,9 @@ from .metrics import is_gross_miss as is_gross_miss
 from .metrics import segmentation_accuracy as segmentation_accuracy
 from .output_files import FILES as FILES
 from .output_files import write_evaluation as write_evaluation
+from .paired import Paired as Paired
+from .paired import all_paired as all_paired
+from .paired import paired as paired
 from .results import PhotoResult as PhotoResult
 from .results import Summary as Summary
 from .results import worst as worst

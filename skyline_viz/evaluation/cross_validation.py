@@ -10,17 +10,29 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from skyline_viz.datasets.item import Item, listed
+from skyline_viz.datasets.predictions import Predictions
+from skyline_viz.evaluation.dealing import deal
 from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.folds import Folds
-from skyline_viz.evaluation.tasks import PhotoTask, compare_photos, photo_tasks, told_once
+from skyline_viz.evaluation.results import PhotoResult
+from skyline_viz.evaluation.tasks import (
+    PhotoTask,
+    compare_lines,
+    compare_photos,
+    photo_tasks,
+    told_once,
+)
 from skyline_viz.method import Configurable, LearnedMethod, Method, MethodError
 from skyline_viz.methods.finding.plugins import as_method
 from skyline_viz.methods.registry import find_method, has_learned
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import Kept
 
-Methods = str | Method | Iterable[str | Method]
-"""One method or several, each as an object or as `find_method` takes it."""
+Tested = str | Method | Predictions
+"""A method as an object or as `find_method` takes it, or the lines that somebody else found."""
+
+Methods = Tested | Iterable[Tested]
+"""One of these or several."""
 
 
 def evaluate(
@@ -34,7 +46,8 @@ def evaluate(
 
     Args:
         items: Photos with truth, such as ``sv.open_dataset(folder)``.
-        methods: One method or several: objects, or names and files as text.
+        methods: One method or several: objects, or names and files as text, or the lines that
+            `open_predictions` finds, of which photos without one have failed.
         workers: Number of processes; 1 works in this one, 0 chooses by the number of photos.
         kept: Where finished photos are kept; nowhere unless given.
 
@@ -55,17 +68,18 @@ def evaluate(
         >>> [one.name for one in found.results["default"]]
         ['desert-1', 'desert-2']
     """
-    chosen = chosen_methods(methods)
+    given, chosen = _given(methods), _methods(methods)
     for one in chosen:
         if isinstance(one, LearnedMethod):
             one.require_trained()
-    return _tested(assign(items, chosen, kept=kept), workers, kept)
+    items = listed(items)
+    return _tested(items, given, assign(items, chosen, kept=kept), workers, kept)
 
 
 def cross_validate(
     items: Iterable[Item],
     methods: Methods = "default",
-    folds: int = 2,
+    folds: int | Mapping[str, int] = 2,
     *,
     seed: int = 0,
     workers: int = 1,
@@ -73,14 +87,17 @@ def cross_validate(
 ) -> Evaluation:
     """Test each photo with what was learned from the photos of all other folds.
 
-    Photo ``i`` in the order of names is in fold ``i % folds``. Methods that learn nothing are
-    tested as they are. What a family of methods learns, it learns once; a method that learns from
-    sums, as our detector does, looks at each photo once, however many folds there are.
+    Photo ``i`` in the order of names is in fold ``i % folds``. Photos that resemble each other
+    belong into one fold, see `deal`. Methods that learn nothing are tested as they are, and so are
+    the lines of somebody else. What a family of methods learns, it learns once; a method that
+    learns from sums, as our detector does, looks at each photo once, however many folds there are.
 
     Args:
         items: Photos with truth, such as ``sv.open_dataset(folder)``.
-        methods: One method or several: objects, or names and files as text.
-        folds: Number of folds, from 2 to the number of photos.
+        methods: One method or several: objects, or names and files as text, or the lines that
+            `open_predictions` finds, of which photos without one have failed.
+        folds: Number of folds, from 2 to the number of photos; or the fold of each photo by its
+            name, as `deal` and `read_split` give them, where photos without one are left out.
         seed: Seed of all that is drawn.
         workers: Number of processes; 1 works in this one, 0 chooses by the number of photos.
         kept: Where finished photos and trained methods are kept; nowhere unless given.
@@ -106,9 +123,9 @@ def cross_validate(
         raise MethodError(
             f"{learned} has learned already, and would be trained anew; name a method."
         )
-    chosen = chosen_methods(given)
+    items, chosen = listed(items), _methods(given)
     assigned = assign(items, chosen, folds, seed=seed, workers=workers, kept=kept)
-    return _tested(assigned, workers, kept)
+    return _tested(items, given, assigned, workers, kept)
 
 
 @dataclass(frozen=True)
@@ -124,8 +141,8 @@ class Assigned:
     failures: Mapping[str, Sequence[Failure]]
     """For each method, photos that it cannot be tested on, and why it could not learn."""
 
-    folds: int
-    """Number of folds; 0 is none."""
+    fold_of: Mapping[str, int]
+    """The fold of each photo by its name; empty where there are none."""
 
     seed: int
     """Seed of all that was drawn."""
@@ -134,7 +151,7 @@ class Assigned:
 def assign(
     items: Iterable[Item],
     methods: Sequence[Method],
-    folds: int | None = None,
+    folds: int | Mapping[str, int] | None = None,
     *,
     seed: int = 0,
     workers: int = 1,
@@ -145,7 +162,7 @@ def assign(
     Args:
         items: Photos with truth.
         methods: The methods, no two of one name.
-        folds: Number of folds; None takes the methods as they are.
+        folds: Number of folds, or the fold of each photo; None takes the methods as they are.
         seed: Seed of all that is drawn.
         workers: Number of processes, see `batch.run`.
         kept: Where trained methods are kept; nowhere unless given.
@@ -157,22 +174,28 @@ def assign(
     if folds is None:
         tasks = {one.name: photo_tasks([(item, one) for item in items], kept) for one in methods}
         nothing: dict[str, list[Failure]] = {one.name: [] for one in methods}
-        return Assigned(tasks, {one.name: one for one in methods}, nothing, 0, seed)
-    by_name = tuple(sorted(items, key=lambda item: item.name))
-    parts = Folds(by_name, folds, seed, workers, kept or Kept())
+        return Assigned(tasks, {one.name: one for one in methods}, nothing, {}, seed)
+    dealt = deal(items, folds) if isinstance(folds, int) else dict(folds)
+    by_name = tuple(sorted((one for one in items if one.name in dealt), key=lambda one: one.name))
+    of = tuple(dealt[item.name] for item in by_name)
+    if len(set(of)) < 2 or set(of) != set(range(max(of) + 1)):
+        raise ValueError("the photos are in fewer than two folds, or one of the folds is empty")
+    parts = Folds(by_name, of, seed, workers, kept or Kept())
     tasks, ready, failures = {}, {}, {}
     for method, learned in zip(methods, parts.learned(methods), strict=True):
         bad = {failure.name for failure in learned.unusable}
         pairs = [
             (item, one)
             for index, item in enumerate(by_name)
-            if (one := learned.methods[index % folds]) is not None and item.name not in bad
+            if (one := learned.methods[of[index]]) is not None and item.name not in bad
         ]
         tasks[method.name] = photo_tasks(pairs, kept)
         failures[method.name] = [*learned.unusable, *learned.failures]
         if (first := next(iter(learned.methods), None)) is not None:
             ready[method.name] = first
-    return Assigned(tasks, ready, failures, folds, seed)
+    return Assigned(
+        tasks, ready, failures, dict(zip([one.name for one in by_name], of, strict=True)), seed
+    )
 
 
 def chosen_methods(methods: object) -> list[Configurable]:
@@ -195,8 +218,24 @@ def chosen_methods(methods: object) -> list[Configurable]:
     return chosen
 
 
+def _methods(methods: object) -> list[Configurable]:
+    """The methods among what is to be tested.
+
+    Raises:
+        MethodError: As `chosen_methods`, or somebody's lines have the name of a method.
+    """
+    given = _given(methods)
+    lines = [one.name for one in given if isinstance(one, Predictions)]
+    own = [one for one in given if not isinstance(one, Predictions)]
+    chosen = chosen_methods(own) if own else []
+    names = [*lines, *(one.name for one in chosen)]
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise MethodError(f"two are called {twice[0]}, and results go by the name.")
+    return chosen
+
+
 def _given(methods: object) -> list[object]:
-    alone = isinstance(methods, str) or hasattr(methods, "detect")
+    alone = isinstance(methods, str | Predictions) or hasattr(methods, "detect")
     if alone or not isinstance(methods, Iterable):
         return [methods]
     if not (given := list(methods)):
@@ -209,14 +248,28 @@ def _twice(methods: Sequence[Method]) -> list[str]:
     return sorted({name for name in names if names.count(name) > 1})
 
 
-def _tested(assigned: Assigned, workers: int, kept: Kept | None) -> Evaluation:
-    results, failures = {}, {}
-    several = len(assigned.tasks) > 1
-    for name, tasks in assigned.tasks.items():
+def _tested(
+    items: Sequence[Item],
+    given: Sequence[object],
+    assigned: Assigned,
+    workers: int,
+    kept: Kept | None,
+) -> Evaluation:
+    """Work on the photos, method by method, in the order in which they were given."""
+    results: dict[str, Sequence[PhotoResult]] = {}
+    failures: dict[str, Sequence[Failure]] = {}
+    several = len(given) > 1
+    fold_of = assigned.fold_of
+    methods = iter(assigned.tasks.items())
+    for one in given:
+        if isinstance(one, Predictions):
+            tested = [item for item in items if not fold_of or item.name in fold_of]
+            results[one.name], failures[one.name] = compare_lines(tested, one, workers=workers)
+            continue
+        name, tasks = next(methods)
         title = name if several else "photos"
         results[name], failed = compare_photos(tasks, workers=workers, kept=kept, title=title)
         failures[name] = [*assigned.failures[name], *failed]
     told = tuple(told_once(failures))
-    return Evaluation(
-        results, told, assigned.methods, assigned.tasks, assigned.folds, assigned.seed
-    )
+    seed = assigned.seed
+    return Evaluation(results, told, assigned.methods, assigned.tasks, fold_of, seed)

@@ -30,11 +30,16 @@ class Evaluation:
     tasks: Mapping[str, Sequence[PhotoTask]] = field(default_factory=dict)
     """For each method, by its name, the photos, each with the method as it was tested on it."""
 
-    folds: int = 0
-    """Folds of the cross-validation; 0 is none."""
+    fold_of: Mapping[str, int] = field(default_factory=dict)
+    """The fold of each photo of a cross-validation by its name; empty where there is none."""
 
     seed: int = 0
     """Seed of all that was drawn."""
+
+    @property
+    def folds(self) -> int:
+        """Folds of the cross-validation; 0 is none."""
+        return max(self.fold_of.values(), default=-1) + 1
 
     @property
     def summaries(self) -> dict[str, Summary]:

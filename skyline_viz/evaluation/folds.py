@@ -40,13 +40,13 @@ class Learned:
 
 @dataclass(frozen=True)
 class Folds:
-    """Photos in folds: photo ``i`` of `items` is in fold ``i % count``."""
+    """Photos in folds."""
 
     items: tuple[Item, ...]
     """The photos, by name."""
 
-    count: int
-    """Number of folds, from 2 to the number of photos."""
+    of: tuple[int, ...]
+    """The fold of each photo, from 0 on; each fold has one."""
 
     seed: int = 0
     """Seed of all that is drawn."""
@@ -57,12 +57,10 @@ class Folds:
     kept: Kept = field(default_factory=Kept)
     """Where what has been learned is kept."""
 
-    def __post_init__(self) -> None:
-        """Refuse too few and too many folds."""
-        if not 2 <= self.count <= len(self.items):
-            raise ValueError(
-                f"folds is a number from 2 to the {len(self.items)} photos, not {self.count}"
-            )
+    @property
+    def count(self) -> int:
+        """Number of folds."""
+        return max(self.of) + 1
 
     def learned(self, methods: Sequence[Method]) -> Iterator[Learned]:
         """Each method as the folds are tested with it; what a family learns, it learns once."""
@@ -89,7 +87,7 @@ class Folds:
         work = partial(_gather, method, self.seed)
         gathered = run(work, self.items, workers=self.workers, title=f"training {method.name}")
         for index, outcome in enumerate(gathered):
-            fold = index % self.count
+            fold = self.of[index]
             if isinstance(outcome, Failure):
                 unusable.append(outcome)
             else:
@@ -114,7 +112,7 @@ class Folds:
         lessons = [
             _Lesson(
                 method,
-                [one for index, one in usable.items() if index % self.count != fold],
+                [one for index, one in usable.items() if self.of[index] != fold],
                 self.seed,
                 self._file(key, fold),
             )
@@ -147,7 +145,7 @@ class Folds:
         """Digest of all that the folds are learned from; nothing where nothing is kept."""
         if self.kept.folder is None:
             return ""
-        return digest_of("folds", digest_of_method(method), self.count, self.seed, self._contents)
+        return digest_of("folds", digest_of_method(method), self.of, self.seed, self._contents)
 
     @cached_property
     def _contents(self) -> list[str]:

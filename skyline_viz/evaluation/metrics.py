@@ -53,6 +53,23 @@ def wrong_segments(
     return tuple(runs(errors > allowed, SEGMENT_GAP))  # NaN is not greater
 
 
+def signed_errors(skyline: Skyline, truth: Skyline) -> F64:
+    """``row - truth row`` in pixels, ``(W,)``, below the truth more than 0; NaN where it is hidden.
+
+    Raises:
+        SkylineError: The widths differ.
+
+    Examples:
+        >>> signed_errors(Skyline(rows=[4, 5]), Skyline(rows=[6, 4]))
+        array([-2.,  1.])
+    """
+    if skyline.width != truth.width:
+        raise SkylineError(
+            f"the skyline has {skyline.width} columns, the truth {truth.width}; they must match"
+        )
+    return np.where(truth.visible, skyline.rows.astype(np.float64) - truth.rows, np.nan)
+
+
 def column_errors(skyline: Skyline, truth: Skyline) -> F64:
     """Distance ``|row - truth row|`` in pixels, ``(W,)``; NaN where the truth is not visible.
 
@@ -66,12 +83,7 @@ def column_errors(skyline: Skyline, truth: Skyline) -> F64:
         >>> column_errors(hidden, Skyline(rows=[4, 5, 6]))
         array([0., 1., 2.])
     """
-    if skyline.width != truth.width:
-        raise SkylineError(
-            f"the skyline has {skyline.width} columns, the truth {truth.width}; they must match"
-        )
-    errors = np.abs(skyline.rows.astype(np.float64) - truth.rows)
-    return np.where(truth.visible, errors, np.nan)
+    return np.abs(signed_errors(skyline, truth))
 
 
 def a_err(skyline: Skyline, truth: Skyline) -> float:

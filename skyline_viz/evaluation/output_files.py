@@ -7,17 +7,24 @@ import io
 import json
 import math
 import os
+import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
 
+import numpy as np
+
 from skyline_viz.detector import Detector
+from skyline_viz.evaluation.dealing import SPLIT, write_split
 from skyline_viz.evaluation.evaluated import Evaluation
+from skyline_viz.evaluation.paired import all_paired
 from skyline_viz.evaluation.results import PhotoResult, Summary
-from skyline_viz.files import write_text
+from skyline_viz.files import replacing, write_text
 from skyline_viz.method import Method
 
-FILES = ("summary.json", "photos.csv", "histogram.png")
+FILES = (
+    "summary.json", "photos.csv", "histogram.png", "curves.csv", "curves.png", "column_errors.npz",
+)  # fmt: skip
 """Names of the files."""
 
 
@@ -27,25 +34,36 @@ def write_evaluation(
     *,
     about: Mapping[str, object],
     title: str,
+    groups: Mapping[str, str] | None = None,
 ) -> None:
-    """Write all `FILES`, each whole or not at all.
+    """Write all `FILES`, each whole or not at all; of a cross-validation its split, too.
 
     Args:
         folder: Where to.
         found: The results.
         about: What they were found on; written before the figures.
-        title: Of the histogram.
+        title: Of the pictures.
+        groups: The group of each photo, as `paired` takes it.
     """
+    from skyline_viz.evaluation.curves import draw_curves, write_curves  # noqa: PLC0415  # likewise
     from skyline_viz.evaluation.histogram import write_histogram  # noqa: PLC0415  # half a second
 
     folder = Path(folder)
-    write_summary(folder / "summary.json", found, about)
+    write_summary(folder / "summary.json", found, about, groups)
     write_photos(folder / "photos.csv", found)
     write_histogram(folder / "histogram.png", found.results, title)
+    write_curves(folder / "curves.csv", found.results)
+    draw_curves(folder / "curves.png", found.results, title)
+    write_errors(folder / "column_errors.npz", found)
+    if found.fold_of:
+        write_split(folder / SPLIT, found.fold_of)
 
 
 def write_summary(
-    path: str | os.PathLike[str], found: Evaluation, about: Mapping[str, object]
+    path: str | os.PathLike[str],
+    found: Evaluation,
+    about: Mapping[str, object],
+    groups: Mapping[str, str] | None = None,
 ) -> None:
     """Write the figures of each method as JSON; figures that do not exist are null.
 
@@ -53,12 +71,18 @@ def write_summary(
         path: Where to.
         found: The results.
         about: What they were found on; written before the figures.
+        groups: The group of each photo, as `paired` takes it.
     """
     document = {
         **about,
         "folds": found.folds,
         "seed": found.seed,
         "summary": {name: _without_nan(one) for name, one in found.summaries.items()},
+        "seen_in_training": {
+            name: [one.name for one in results if one.seen]
+            for name, results in found.results.items()
+        },
+        "compared": [asdict(one) for one in all_paired(found.results, groups) if one.photos],
         "settings": {name: _settings(one) for name, one in found.methods.items()},
         "failed": [asdict(failure) for failure in found.failures],
     }
@@ -67,14 +91,36 @@ def write_summary(
 
 def write_photos(path: str | os.PathLike[str], found: Evaluation) -> None:
     """Write a line of CSV for each photo and method; the header names the fields."""
-    names = [field.name for field in fields(PhotoResult)]
+    names = [field.name for field in fields(PhotoResult) if field.name != "errors"]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*names, "method"])
+    writer.writerow([*names, "fold", "method"])
     for method, results in found.results.items():
         for result in results:
-            writer.writerow([*(_cell(getattr(result, name)) for name in names), method])
+            cells = [_cell(getattr(result, name)) for name in names]
+            writer.writerow([*cells, found.fold_of.get(result.name, ""), method])
     write_text(path, text.getvalue())
+
+
+def write_errors(path: str | os.PathLike[str], found: Evaluation) -> None:
+    """Write the error of each column as ``.npz``: an array ``METHOD/PHOTO`` for each of both.
+
+    It holds row minus true row of each column, float32 in pixels, NaN where the truth is not
+    visible.
+    """
+    arrays = {
+        f"{method}/{result.name}": result.errors
+        for method, results in found.results.items()
+        for result in results
+        if result.errors is not None
+    }
+    with (
+        replacing(path) as temporary,
+        zipfile.ZipFile(temporary, "w", zipfile.ZIP_DEFLATED) as file,
+    ):
+        for name, errors in arrays.items():  # numpy's own takes names as Python's arguments
+            with file.open(zipfile.ZipInfo(f"{name}.npy"), "w") as array:
+                np.lib.format.write_array(array, errors)
 
 
 def _settings(method: Method) -> dict[str, object]:

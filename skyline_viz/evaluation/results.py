@@ -2,11 +2,17 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from skyline_viz.evaluation.metrics import Errors, called_invisible, segmentation_accuracy
+from skyline_viz.arrays import F32
+from skyline_viz.evaluation.metrics import (
+    Errors,
+    called_invisible,
+    segmentation_accuracy,
+    signed_errors,
+)
 from skyline_viz.skyline import Skyline
 
 
@@ -44,6 +50,14 @@ class PhotoResult:
     called_invisible: float = 0.0
     """Share of the truth's visible columns that the detection calls not visible, in [0, 1]."""
 
+    seen: str = ""
+    """How the photo was seen in training, ``exact`` or ``near``; empty where it was not, as far as
+    is known. With it the error is no test."""
+
+    errors: F32 | None = field(default=None, compare=False, repr=False)
+    """``(W,)`` row minus true row of each column, in pixels, NaN where the truth is not visible;
+    None in results of somebody's who kept none."""
+
     @classmethod
     def of(
         cls, name: str, skyline: Skyline, truth: Skyline, height: int, seconds: float = math.nan
@@ -65,6 +79,7 @@ class PhotoResult:
             height=height,
             width=truth.width,
             called_invisible=called_invisible(skyline, truth),
+            errors=signed_errors(skyline, truth).astype(np.float32),
         )
 
 

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import Any, TypeVar
 
+import numpy as np
+
 from skyline_viz.datasets.item import Item, photo_and_truth
+from skyline_viz.datasets.predictions import Predictions, size_of
 from skyline_viz.evaluation.results import PhotoResult
+from skyline_viz.evaluation.seen import seen_in_training
 from skyline_viz.method import Method
-from skyline_viz.running.batch import Failure
+from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.resume import Codec, Kept, digest_of_item, digest_of_method
 from skyline_viz.running.warming import warm_up
+from skyline_viz.skyline import SkylineError
+
+NO_LINE = "there is no line for it in"
+"""How the sentence about a photo begins for which a folder of lines holds none."""
 
 Value = TypeVar("Value")
 
@@ -78,7 +86,7 @@ def compare_photos(
     tasks: Sequence[PhotoTask], *, workers: int = 1, kept: Kept | None = None, title: str = "photos"
 ) -> tuple[list[PhotoResult], list[Failure]]:
     """Detect, and compare with the truth; takes what `run_tasks` takes."""
-    codec: Codec[PhotoResult] = Codec(asdict, _result)
+    codec: Codec[PhotoResult] = Codec(_record, _result)
     return run_tasks(compare_photo, tasks, "result", codec, workers=workers, kept=kept, title=title)
 
 
@@ -92,7 +100,46 @@ def compare_photo(task: PhotoTask) -> PhotoResult:
     photo, truth = photo_and_truth(task.item)
     warm_up()
     found = task.method.detect(photo)
-    return PhotoResult.of(task.name, found.skyline, truth, len(photo), found.total_seconds)
+    result = PhotoResult.of(task.name, found.skyline, truth, len(photo), found.total_seconds)
+    return replace(result, seen=seen_in_training(task.method, photo))
+
+
+def compare_lines(
+    items: Sequence[Item], given: Predictions, *, workers: int = 1
+) -> tuple[list[PhotoResult], list[Failure]]:
+    """Compare lines that exist with the truth; a photo without one has failed.
+
+    Args:
+        items: Photos with truth.
+        given: The lines.
+        workers: Number of processes, see `batch.run`.
+    """
+    results, failures = [], []
+    work = partial(compare_line, given)
+    for outcome in run(work, items, workers=workers, title=given.name):
+        if isinstance(outcome, Failure):
+            failures.append(outcome)
+        else:
+            results.append(outcome)
+    return results, failures
+
+
+def compare_line(given: Predictions, item: Item) -> PhotoResult:
+    """Compare the line of one photo with the truth.
+
+    Raises:
+        PhotoError: The photo cannot be read.
+        SkylineError: It has no line or no truth, or one that does not fit.
+    """
+    if item.name not in given.lines:
+        raise SkylineError(f"{NO_LINE} {given.name}")
+    truth = item.truth()
+    if truth is None:
+        raise SkylineError("there is no truth")
+    height, width = size_of(item)
+    if truth.width != width:
+        raise SkylineError(f"the photo is {width} columns wide, the truth {truth.width}")
+    return PhotoResult.of(item.name, given.line(item), truth, height)
 
 
 def told_once(failures: Mapping[str, Sequence[Failure]]) -> list[Failure]:
@@ -120,5 +167,20 @@ def _key(what: str, task: PhotoTask) -> str:
     return digest_of_item(f"{what} {task.digest}", task.item)
 
 
+def _record(result: PhotoResult) -> dict[str, Any]:
+    """A result as JSON takes it: without errors where the truth is not visible."""
+    record = {one.name: getattr(result, one.name) for one in fields(result)}
+    if result.errors is not None:
+        told = np.isfinite(result.errors)
+        record["errors"] = [
+            float(error) if seen else None
+            for error, seen in zip(result.errors.tolist(), told.tolist(), strict=True)
+        ]
+    return record
+
+
 def _result(record: dict[str, Any]) -> PhotoResult:
+    if record.get("errors") is not None:
+        errors = [np.nan if one is None else one for one in record["errors"]]
+        record = {**record, "errors": np.array(errors, np.float32)}
     return PhotoResult(**record)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from html import escape
 
@@ -90,7 +91,7 @@ def _line(results: Sequence[PhotoResult]) -> list[str]:
         f"{round(one.under_4_px * one.photos)}/{one.photos}",
         f"{one.gross_misses}",
         f"{one.segmentation_accuracy:.2%}",
-        f"{1000 * one.seconds:.0f}",
+        "-" if math.isnan(one.seconds) else f"{1000 * one.seconds:.0f}",
     ]
 
 
@@ -107,8 +108,13 @@ def _figures(summary: Summary) -> list[tuple[str, str]]:
         ("gross misses (over 5 % of the height)", f"{summary.gross_misses}"),
         ("segmentation accuracy", f"{summary.segmentation_accuracy:.2%}"),
         ("visible columns called invisible", f"{summary.called_invisible:.2%}"),
-        ("time of a detection, median", f"{summary.seconds:.3f} s"),
+        *_time(summary.seconds),
     ]
+
+
+def _time(seconds: float) -> list[tuple[str, str]]:
+    """Nothing for lines that somebody else found, in a time that nobody told."""
+    return [] if math.isnan(seconds) else [("time of a detection, median", f"{seconds:.3f} s")]
 
 
 def _share(share: float, photos: int) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
+from skyline_viz.evaluation import FILES
 from skyline_viz.sky_model import TRAINED
 from testing.networks import bright_sky
 from testing.programs.commands import files, write_scenes
@@ -15,7 +16,7 @@ from testing.programs.commands import files, write_scenes
 def test_evaluate_prints_and_writes(say, hills, tmp_path):
     status, out, err = say("evaluate", hills, "--out", "report")
     assert (status, err) == (0, "")
-    assert files(tmp_path / "report") == ["histogram.png", "photos.csv", "summary.json"]
+    assert files(tmp_path / "report") == sorted(FILES)
     summary = json.loads((tmp_path / "report" / "summary.json").read_text())
     assert (summary["dataset"], summary["layout"]) == ("hills", "plain")
     assert summary["summary"]["default"]["photos"] == 4
@@ -83,15 +84,16 @@ def test_one_method_is_printed_with_its_worst_photos_and_several_as_a_table(say,
     status, out, _ = say("evaluate", hills, "--method", "edges", "default")
     assert status == 0
     assert out.startswith("hills: 4 photos, as they are; A_err in px\n")
-    assert [line.split()[0] for line in out.splitlines()[1:]] == ["method", "edges", "default"]
+    assert [line.split()[0] for line in out.splitlines()[1:4]] == ["method", "edges", "default"]
+    assert out.splitlines()[4].startswith("edges less default: ")
 
 
 def test_several_methods_write_the_files_that_one_writes(say, hills, tmp_path):
     words = ["--method", "default", "edges", "--folds", "2", "--out", "report"]
     status, out, _ = say("evaluate", hills, *words)
     assert status == 0
-    assert "summary.json, photos.csv, histogram.png in report" in out
-    assert files(tmp_path / "report") == ["histogram.png", "photos.csv", "summary.json"]
+    assert "summary.json, photos.csv, histogram.png, curves.csv, curves.png, column_err" in out
+    assert files(tmp_path / "report") == sorted([*FILES, "folds.csv"])
     with (tmp_path / "report" / "photos.csv").open(newline="") as file:
         lines = list(csv.DictReader(file))
     assert [line["method"] for line in lines] == ["default"] * 4 + ["edges"] * 4

@@ -10,7 +10,7 @@ from testing.detections import result
 @pytest.fixture
 def found():
     results = {"default": [result("a", 1.0), result("b", 3.0)], "<b>": []}
-    return Evaluation(results, (Failure("c & d", "it is <gone>"),), folds=2)
+    return Evaluation(results, (Failure("c & d", "it is <gone>"),), fold_of={"a": 0, "b": 1})
 
 
 def test_each_method_has_a_summary(found):

@@ -27,7 +27,7 @@ def test_the_summary_has_the_figures_of_each_method_under_its_name(tmp_path):
         {"default": [result("a", 2.5)], "edges": []},
         (Failure("b", "it is gone"),),
         {"default": detector, "edges": EdgesOnly()},
-        folds=2,
+        fold_of={"a": 0, "b": 1},
         seed=3,
     )
     write_summary(path, found, {"dataset": "Ötztal"})
@@ -46,7 +46,7 @@ def test_the_summary_has_the_figures_of_each_method_under_its_name(tmp_path):
 def test_a_sky_model_is_told_where_it_ran(tmp_path, config, sky):
     path = tmp_path / "summary.json"
     detector = Detector(config=DetectorConfig.presets()[config])
-    found = Evaluation({config: []}, (), {config: detector}, folds=2, seed=3)
+    found = Evaluation({config: []}, (), {config: detector}, fold_of={"a": 0, "b": 1}, seed=3)
     write_summary(path, found, {})
     assert json.loads(path.read_text("utf-8"))["settings"][config]["sky"] == sky
 
