@@ -34,10 +34,10 @@ from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import ALTERNATIVE_RADIUS, curve, log_line
 from skyline_viz.viewer.contents import Fidelity
 from skyline_viz.viewer.documents import markdown_document
-from skyline_viz.viewer.near import Near
+from skyline_viz.viewer.maps.near import Near
+from skyline_viz.viewer.maps.stage_maps import log_whole, shown_pixels
 from skyline_viz.viewer.parting_words import markdown
 from skyline_viz.viewer.recording import log_detection
-from skyline_viz.viewer.stage_maps import log_whole, shown_pixels
 
 _DIFFERENCE = (0xAA, 0x8E, 0x0A)  # the yellow of the second line, as dark as areas need it
 _ALONE = ((0x4D, 0xA3, 0xE8), (0xF0, 0x7A, 0x5A))  # edges of the first alone, and of the second

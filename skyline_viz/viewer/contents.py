@@ -8,7 +8,7 @@ from typing import Any, Literal, TypeAlias
 from skyline_viz.detection import Detection
 from skyline_viz.stage import ADDED, FUSED, OURS, Quantity, of_term
 from skyline_viz.system.memory import FULL_MEGAPIXELS
-from skyline_viz.viewer.stage_maps import shown_terms
+from skyline_viz.viewer.maps.stage_maps import shown_terms
 
 Fidelity: TypeAlias = Literal["lean", "full", "exact"]
 """How much is kept.

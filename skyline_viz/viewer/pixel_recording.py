@@ -23,8 +23,8 @@ from skyline_viz.skyline import Skyline
 from skyline_viz.stage import Quantity
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_pictures import cell_box
+from skyline_viz.viewer.maps.value_maps import FINE, classes_of, legend
 from skyline_viz.viewer.pixel_words import about_pixels
-from skyline_viz.viewer.value_maps import FINE, classes_of, legend
 
 FULL_STRENGTH = 220.0
 """Gradient strength from which on the ellipse of the structure tensor fills its patch."""

@@ -40,12 +40,8 @@ from skyline_viz.viewer.blueprints import detection_blueprint, stages_blueprint
 from skyline_viz.viewer.column_views import TRUTH_RADIUS, log_columns, log_line, log_series
 from skyline_viz.viewer.contents import Contents, Fidelity
 from skyline_viz.viewer.documents import markdown_document
-from skyline_viz.viewer.near import Near, let_go
-from skyline_viz.viewer.pixel_recording import log_pixels, opening_column
-from skyline_viz.viewer.program.rerun_file import saved
-from skyline_viz.viewer.program.rerun_internals import let_go_of_orphans
-from skyline_viz.viewer.report import report
-from skyline_viz.viewer.stage_maps import (
+from skyline_viz.viewer.maps.near import Near, let_go
+from skyline_viz.viewer.maps.stage_maps import (
     QUANTITIES,
     encoded_edges,
     log_detour,
@@ -54,6 +50,10 @@ from skyline_viz.viewer.stage_maps import (
     places_of,
     shown_pixels,
 )
+from skyline_viz.viewer.pixel_recording import log_pixels, opening_column
+from skyline_viz.viewer.program.rerun_file import saved
+from skyline_viz.viewer.program.rerun_internals import let_go_of_orphans
+from skyline_viz.viewer.report import report
 
 APPLICATION = "skyline-viz"
 """Application id of all recordings: they share what is changed about the layout by hand."""

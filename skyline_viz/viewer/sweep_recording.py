@@ -23,9 +23,9 @@ from skyline_viz.stage import COST
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.column_views import ALTERNATIVE_RADIUS, log_line
 from skyline_viz.viewer.documents import markdown_document
+from skyline_viz.viewer.maps.stage_maps import encoded_edges, shown_pixels
+from skyline_viz.viewer.maps.value_maps import COARSE, sparse_map
 from skyline_viz.viewer.report import listed_segments
-from skyline_viz.viewer.stage_maps import encoded_edges, shown_pixels
-from skyline_viz.viewer.value_maps import COARSE, sparse_map
 
 _AXIS = (0x60, 0x60, 0x60)
 _PRESENT = f"{entities.SWEEP_ERROR}/present"

@@ -7,8 +7,8 @@ import skyline_viz as sv
 from skyline_viz.diagnosis.explanation import explain_pixel
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.bank_pictures import cell_box
+from skyline_viz.viewer.maps.value_maps import FINE, classes_of
 from skyline_viz.viewer.pixel_recording import PATCH, ellipse, log_pixels
-from skyline_viz.viewer.value_maps import FINE, classes_of
 from testing.recordings import Read, scene
 
 

@@ -11,7 +11,7 @@ from skyline_viz.tensor import tensor_map
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.blueprints import TABS
 from skyline_viz.viewer.column_views import path_costs
-from skyline_viz.viewer.stage_maps import LEAN_PIXELS, shown_pixels
+from skyline_viz.viewer.maps.stage_maps import LEAN_PIXELS, shown_pixels
 from testing import ROOT
 from testing.networks import bright_model
 from testing.recordings import Read, drawn_rows, scene, verify, visible_rows

@@ -6,7 +6,7 @@ import rerun.blueprint as rrb
 
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.stage_maps import SEARCH
+from skyline_viz.viewer.maps.stage_maps import SEARCH
 from skyline_viz.viewer.tabs.views import lines_of, map_view, photo_view, with_halos
 
 

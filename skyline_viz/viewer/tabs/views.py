@@ -12,7 +12,7 @@ from skyline_viz.stage import SKY
 from skyline_viz.system.names import shown_in_viewer
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.map_aids import DRAWN, SCALE, SCALE_SHARE
+from skyline_viz.viewer.maps.map_aids import DRAWN, SCALE, SCALE_SHARE
 
 BLACK = (12, 12, 12)
 """What lies behind pictures."""

@@ -4,7 +4,7 @@ import pytest
 
 from skyline_viz.viewer import entities
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.stage_maps import SEARCH
+from skyline_viz.viewer.maps.stage_maps import SEARCH
 from skyline_viz.viewer.tabs.search import search_tab
 from testing.layouts import views_of
 

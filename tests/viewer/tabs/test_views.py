@@ -3,7 +3,7 @@
 import pytest
 
 from skyline_viz.viewer.contents import Contents
-from skyline_viz.viewer.map_aids import SCALE
+from skyline_viz.viewer.maps.map_aids import SCALE
 from skyline_viz.viewer.tabs.views import columns_for, grid, map_view, photo_view
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 import skyline_viz as sv
-from skyline_viz.viewer.value_maps import COARSE, FINE, Quantity, dense_map, sparse_map
+from skyline_viz.viewer.maps.value_maps import COARSE, FINE, Quantity, dense_map, sparse_map
 from testing.recordings import Read
 
 PLAIN = Quantity("value")

@@ -35,9 +35,9 @@ from skyline_viz.stage import (
 )
 from skyline_viz.terms import Term
 from skyline_viz.viewer import entities
-from skyline_viz.viewer.map_aids import log_broad, log_broad_edges, log_fade, log_scale
-from skyline_viz.viewer.near import Near, Sampled, Sampler, let_go
-from skyline_viz.viewer.value_maps import (
+from skyline_viz.viewer.maps.map_aids import log_broad, log_broad_edges, log_fade, log_scale
+from skyline_viz.viewer.maps.near import Near, Sampled, Sampler, let_go
+from skyline_viz.viewer.maps.value_maps import (
     BANDS,
     COARSE,
     FINE,

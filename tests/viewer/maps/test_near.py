@@ -9,10 +9,11 @@ import skyline_viz as sv
 from skyline_viz.rendering import render
 from skyline_viz.stage import Quantity
 from skyline_viz.tensor import tensor_map
-from skyline_viz.viewer import entities, near, recording
-from skyline_viz.viewer.near import BLOCK, Near
-from skyline_viz.viewer.stage_maps import places_of
-from skyline_viz.viewer.value_maps import COARSE, FINE
+from skyline_viz.viewer import entities, recording
+from skyline_viz.viewer.maps import near
+from skyline_viz.viewer.maps.near import BLOCK, Near
+from skyline_viz.viewer.maps.stage_maps import places_of
+from skyline_viz.viewer.maps.value_maps import COARSE, FINE
 from testing.examples import examples
 from testing.recordings import Read
 

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from skyline_viz.viewer.stage_maps import _kth_cheapest
+from skyline_viz.viewer.maps.stage_maps import _kth_cheapest
 from testing.examples import examples
 
 

@@ -19,7 +19,7 @@ from skyline_viz.arrays import Bool, Int
 from skyline_viz.skyline import Skyline
 from skyline_viz.stage import Quantity
 from skyline_viz.system.memory import give_back
-from skyline_viz.viewer.value_maps import FINE, ValueMap, classes_of, value_range
+from skyline_viz.viewer.maps.value_maps import FINE, ValueMap, classes_of, value_range
 
 NEAR_PIXELS = 600_000
 """Pixels that are kept exactly, all lines together: 36 bytes each make 22 MB."""

@@ -11,7 +11,7 @@ from PIL import Image
 
 import skyline_viz as sv
 from skyline_viz.stage import COST, SCORE
-from skyline_viz.viewer.map_aids import (
+from skyline_viz.viewer.maps.map_aids import (
     DRAWN,
     FADED_UNDER,
     SCALE,
@@ -19,7 +19,7 @@ from skyline_viz.viewer.map_aids import (
     log_fade,
     reach_of,
 )
-from skyline_viz.viewer.value_maps import COARSE, FINE, dense_map, sparse_map
+from skyline_viz.viewer.maps.value_maps import COARSE, FINE, dense_map, sparse_map
 from testing.recordings import Read
 
 CLASSES = st.sampled_from([np.uint8, np.uint16]).flatmap(

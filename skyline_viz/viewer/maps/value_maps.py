@@ -20,7 +20,7 @@ import rerun as rr
 from skyline_viz.arrays import U8, Int
 from skyline_viz.colours import coloured
 from skyline_viz.stage import Quantity
-from skyline_viz.viewer.map_aids import log_broad, log_scale
+from skyline_viz.viewer.maps.map_aids import log_broad, log_scale
 
 COARSE, FINE = 255, 4095
 """Values that a map tells apart: one byte a pixel in lean recordings, two in full ones."""
