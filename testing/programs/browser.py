@@ -21,6 +21,25 @@ def chromium(flags=()):
         browser.close()
 
 
+def hold(page, address):
+    """
+    Keep the next request to an address on its way; the list gets its route, to be answered later.
+
+    The rule stays, and lets what follows pass: a rule that ends with its first request ends the
+    interception of the browser as well, which then sends what is held.
+    """
+    held = []
+
+    def keep(route):
+        if held:
+            route.fallback()
+        else:
+            held.append(route)
+
+    page.route(address, keep)
+    return held
+
+
 class Page:
     """The labelling page as a person uses it."""
 

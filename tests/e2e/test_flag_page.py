@@ -11,7 +11,7 @@ from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
 from skyline_viz.gallery.store import Gallery
 from testing import SAMPLES
 from testing.detections import WITHOUT_SKY
-from testing.programs.browser import chromium
+from testing.programs.browser import chromium, hold
 
 NAMES = ["hazy-1", "spires-5", "rover-2"]  # the worst first
 
@@ -180,12 +180,7 @@ def test_an_answer_that_was_lost_is_asked_for_again(window, gallery):
 
 def test_all_is_saved_only_when_nothing_is_on_its_way(window, gallery):
     page = window()
-    held = []
-
-    def hold(route):
-        held.append(route)
-
-    page.route("**/flags/hazy-1", hold, times=1)
+    held = hold(page, "**/flags/hazy-1")
     card(page, "hazy-1").locator("input").check()
     card(page, "hazy-1").locator("input").uncheck()  # taken back, and yet on its way
     with page.expect_response("**/flags/rover-2"):

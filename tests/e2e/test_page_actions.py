@@ -5,7 +5,7 @@ import re
 import pytest
 
 from testing.labelling import asked, served, write_hills
-from testing.programs.browser import Page
+from testing.programs.browser import Page, hold
 
 SIZE = {"height": 240, "width": 400}
 
@@ -106,20 +106,14 @@ def test_a_second_press_of_space_accepts_nothing_else(page):
     assert statuses(page) == ["accepted", "to do", "to do", "to do"]
 
 
-def hold(page):
-    """Keep the next operation on the first photo on its way; the list gets its route."""
-    held = []
-
-    def keep(route):
-        held.append(route)
-
-    page.page.route("**/photos/1/operations", keep, times=1)
-    return held
+def hold_first(page):
+    """Keep the next operation on the first photo on its way."""
+    return hold(page.page, "**/photos/1/operations")
 
 
 @pytest.mark.parametrize("elsewhere", [False, True])
 def test_an_edit_behind_an_accept_is_what_is_said(page, elsewhere):
-    held = hold(page)
+    held = hold_first(page)
     page.page.locator("#lines").focus()
     page.page.keyboard.press("Space")
     page.page.mouse.click(*page.at(100, 90))
@@ -144,7 +138,7 @@ def test_an_edit_behind_an_accept_is_what_is_said(page, elsewhere):
 def test_a_tag_behind_an_accept_leaves_its_undo_in_place(page):
     page.page.locator("#lines").focus()
     page.page.keyboard.press("t")
-    held = hold(page)
+    held = hold_first(page)
     page.page.evaluate("document.getElementById('accept').click()")
     page.page.get_by_label("needs terrain data").check()
     page.page.locator("#saving", has_text="2 not saved").wait_for()
@@ -199,7 +193,7 @@ def test_in_the_sheet_undo_takes_back_what_is_still_on_its_way(page):
     page.keys("r")
     page.says("hill-0.png is needs review.")
     first.click()
-    held = hold(page)
+    held = hold_first(page)
     page.page.keyboard.press("d")
     page.page.keyboard.press("u")
     page.page.locator("#saving", has_text="2 not saved").wait_for()

@@ -7,7 +7,7 @@ import pytest
 from benchmarks.reliability.page import worked
 from skyline_viz.photo import write_photo
 from testing.labelling import hills, served, write_hills
-from testing.programs.browser import Page
+from testing.programs.browser import Page, hold
 from testing.programs.restarts import Restarted, kept_anchors
 
 SIZE = {"height": 240, "width": 400}
@@ -72,7 +72,7 @@ def test_an_edit_whose_answer_is_spoiled_is_kept_once(page, fault):
 
 def test_sending_never_freezes(page):
     page.page.clock.install()
-    page.page.route("**/operations", lambda route: None, times=1)  # is never answered
+    hold(page.page, "**/operations")  # is never answered
     x, y = page.at(60, 90)
     page.page.mouse.click(x, y)
     page.page.locator("#saving[data-state=unsaved]").wait_for()
