@@ -46,6 +46,16 @@ test("of two photos that are opened at once the later one is shown", async () =>
   assert.deepEqual([await first, await second, labelling.document.id], [false, true, 3]);
 });
 
+test("previous and next are those of the photo that is on its way", async () => {
+  const labelling = await opened();
+  const opening = labelling.open(3);
+  assert.equal(labelling.place, 2);
+  await opening;
+  server.documents.delete(1);
+  await labelling.open(1);
+  assert.equal(labelling.place, 2); // it is not on its way any more
+});
+
 test("a photo that has vanished is said, and the one that was shown stays", async () => {
   const labelling = await opened();
   const said = [];

@@ -57,6 +57,7 @@ export class Labelling extends Events {
   /** @type {Map<number, Promise<Ready | null>>} */
   #ahead = new Map();
   #opening = 0;
+  #sought = 0; // id of the photo that was asked for last
 
   constructor() {
     super();
@@ -89,9 +90,10 @@ export class Labelling extends Events {
     return this.queue.waiting;
   }
 
-  /** Place of the current photo in the list, from 0. */
+  /** Place in the list, from 0, of the photo that is on its way, or else of the current one. */
   get place() {
-    return this.photos.findIndex((photo) => photo.id === this.document?.id);
+    const sought = this.loading ? this.#sought : this.document?.id;
+    return this.photos.findIndex((photo) => photo.id === sought);
   }
 
   /**
@@ -102,6 +104,7 @@ export class Labelling extends Events {
    */
   async open(id) {
     const turn = ++this.#opening;
+    this.#sought = id;
     this.loading = this.photos.find((photo) => photo.id === id)?.name ?? "photo";
     this.tell("loading");
     let ready;
