@@ -9,7 +9,8 @@ from typing import Any
 
 from annotate.formats.common import FormatError
 from annotate.formats.outlines import Points, Runs
-from skyline_viz.command_line.messages import counted, listed
+from skyline_viz.command_line.messages import counted
+from skyline_viz.system.names import listed
 
 LINES, SKIES = ("skyline", "horizon"), ("sky",)
 """Labels of lines that are skylines, and of regions that are sky, unless others are named."""

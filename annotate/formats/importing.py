@@ -12,9 +12,10 @@ from annotate.formats.drawings import Wanted
 from annotate.formats.photo_names import PhotoNames
 from annotate.formats.rivals import refuse_rivals, seen_rows
 from annotate.store.contents import Contents
-from skyline_viz.command_line.messages import counted, listed
+from skyline_viz.command_line.messages import counted
 from skyline_viz.photo import PhotoError
 from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.system.names import listed
 
 
 @dataclass(frozen=True)

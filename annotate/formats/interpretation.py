@@ -15,9 +15,9 @@ from annotate.formats.importing import Found
 from annotate.formats.outlines import line_rows, own_rows, polygon_mask
 from annotate.formats.photo_names import PhotoNames
 from annotate.formats.rivals import refuse_rivals
-from skyline_viz.command_line.messages import listed
 from skyline_viz.datasets.sky_region import line_of
 from skyline_viz.skyline import Skyline, SkylineError, fill
+from skyline_viz.system.names import listed
 
 
 def interpret(

@@ -46,7 +46,7 @@ class Diagnose(OnTruth):
         if self.photo and self.photo not in {item.name for item in items}:
             raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
         workers, kept = self.begin("diagnose", dataset, items, self.out, RECORDING)
-        groups = self.folds.groups(items) if self.folds.asked else None
+        groups = self.folds.groups(items, workers) if self.folds.asked else None
         folds = self.folds.dealt(items, groups)
         assigned = evaluation.assign(
             items, [self._method()], folds,

@@ -18,6 +18,7 @@ from skyline_viz.datasets.matching import TRUTH_FOLDERS, bare_stem, common_name
 from skyline_viz.datasets.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, read_truth
 from skyline_viz.photo import PHOTO_SUFFIXES, photo_size
 from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.system.names import listed
 
 _DEEP = 4  # folders below folders
 _OVERLAY = "-overlay"  # what we add to the name of a photo with its line drawn on it
@@ -139,7 +140,7 @@ def open_predictions(
         found.add(file)
     if not found.lines:
         raise DatasetError(f"{root} holds no line for any of the {len(items)} photos{found.why()}.")
-    notes = tuple(f"{text}: {_listed(names)}." for text, names in found.notes.items())
+    notes = tuple(f"{text}: {listed(names)}." for text, names in found.notes.items())
     return Predictions(
         name or root.absolute().name, found.lines, tuple(found.extra), notes, f"{root}"
     )
@@ -175,8 +176,8 @@ class _Matching:
     def why(self) -> str:
         """What there is instead, to end a sentence."""
         if self.extra:
-            return f"; its files, such as {_listed(self.extra, 3)}, are called otherwise"
-        return "".join(f"; {text}: {_listed(names, 3)}" for text, names in self.notes.items())
+            return f"; its files, such as {listed(self.extra, 3)}, are called otherwise"
+        return "".join(f"; {text}: {listed(names, 3)}" for text, names in self.notes.items())
 
 
 class _Names:
@@ -246,8 +247,3 @@ def _usable(files: Sequence[Path], notes: dict[str, list[str]]) -> list[Path]:
     ]
     inside = [file for file in pictures if file.parent.name.lower() in TRUTH_FOLDERS]
     return [*sorted(good, key=lambda file: file.suffix.lower()), *(inside or pictures)]
-
-
-def _listed(names: Sequence[str], most: int = 8) -> str:
-    more = len(names) - most
-    return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")

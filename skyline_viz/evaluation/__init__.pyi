@@ -5,7 +5,9 @@ from .cross_validation import evaluate as evaluate
 from .curves import TOLERANCES as TOLERANCES
 from .curves import curve as curve
 from .dealing import deal as deal
+from .dealing import fingerprints as fingerprints
 from .dealing import grouped as grouped
+from .dealing import kept_together as kept_together
 from .dealing import read_split as read_split
 from .evaluated import Evaluation as Evaluation
 from .intervals import Interval as Interval

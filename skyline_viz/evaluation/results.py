@@ -51,8 +51,8 @@ class PhotoResult:
     """Share of the truth's visible columns that the detection calls not visible, in [0, 1]."""
 
     seen: str = ""
-    """How the photo was seen in training, ``exact`` or ``near``; empty where it was not, as far as
-    is known. With it the error is no test."""
+    """What has seen the photo in training, as ``training: exact``, see `seen_in_training`; empty
+    where nothing has, as far as is known. With it the error is no test."""
 
     errors: F32 | None = field(default=None, compare=False, repr=False)
     """``(W,)`` row minus true row of each column, in pixels, NaN where the truth is not visible;
