@@ -40,6 +40,8 @@ class Diagnose(OnTruth):
 
     def run(self) -> int:
         """Diagnose all photos that have a truth; return the exit status."""
+        from skyline_viz.evaluation.seen import notes as seen_notes
+
         diagnosis.checked_tolerance(self.tolerance)
         check_report(self.report)
         dataset, items = self.open()
@@ -64,6 +66,8 @@ class Diagnose(OnTruth):
         )
         if done := kept.said():
             say(done)
+        for note in seen_notes(name, {one.name: one.seen for one in found}, folds=bool(folds)):
+            say(note)
         self._tell(dataset.name, found)
         failures = [*assigned.failures[name], *failed]
         if self.report:

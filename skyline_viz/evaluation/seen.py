@@ -89,9 +89,8 @@ def in_titles(results: Mapping[str, Sequence[PhotoResult]]) -> str:
     """The same in a few words, for pictures; empty where no photo was seen."""
     told = []
     for part, words in ((TRAINING, "seen in training"), (SKY, "seen by the sky model")):
-        most, photos = max(
-            (len(seen_by(part, by_name(found))), len(found)) for found in results.values()
-        ) if results else (0, 0)  # fmt: skip
+        counts = [(len(seen_by(part, by_name(found))), len(found)) for found in results.values()]
+        most, photos = max(counts, default=(0, 0))
         if most:
             told.append(f"{most} of {photos} photos {words}")
     return ", ".join(told)

@@ -43,6 +43,5 @@ def learn(
     net = fit(known, SIZES[size], steps=steps, seed=seed, progress=progress)
     about = {"size": size, "steps": steps, "seed": seed, "skyline-viz": __version__}
     trained = json.dumps({"photos": sources, **about})
-    return exported(
-        net, {TRAINED: trained, SEEN: packed(telling([one.seen for one in known if one.seen]))}
-    )
+    seen = packed(telling([one.seen for one in known if one.seen]))
+    return exported(net, {TRAINED: trained, SEEN: seen})
