@@ -19,7 +19,7 @@ from skyline_viz.command_line.settings import OptionalFolder
 from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from skyline_viz.datasets import Dataset
     from skyline_viz.evaluation import Evaluation
@@ -80,7 +80,7 @@ class Evaluate(OnTruth):
             }
             evaluation.write_evaluation(self.out, found, about=about, title=title, groups=groups)
             kept.remove()
-        _print(title, found)
+        _print(title, found, groups)
         for note in found.notes:
             say(note)
         tell(*(one.said for one in evaluation.all_paired(found.results, groups)))
@@ -116,7 +116,7 @@ class Evaluate(OnTruth):
         return chosen, folds or f"filter bank trained on {learned or 'an unnamed data set'}"
 
 
-def _print(title: str, found: Evaluation) -> None:
+def _print(title: str, found: Evaluation, groups: Mapping[str, str] | None) -> None:
     """A method alone with its worst photos, several as a table."""
     if len(found.results) > 1:
         tell(f"{title}; A_err in px")
@@ -125,5 +125,6 @@ def _print(title: str, found: Evaluation) -> None:
     for results in found.results.values():
         if results:
             tell(title)
-            summary = evaluation.summary_table(evaluation.Summary.of(results))
+            interval = evaluation.mean_interval(results, groups)
+            summary = evaluation.summary_table(evaluation.Summary.of(results), interval)
             tell_drawn(summary, evaluation.worst_table(evaluation.worst(results)))

@@ -1,7 +1,8 @@
 """Lines that somebody else has found: another method's, another network's, another person's.
 
 They come as files, one for each photo, in whatever a truth may be in: CSV, JSON, masks of either
-polarity, painted photos; or for many photos as one document. The names decide which photo a file is for, as they do for truths.
+polarity, painted photos; or for many photos as one document. The names decide which photo a file is
+for, as they do for truths.
 """
 
 from __future__ import annotations
@@ -273,7 +274,7 @@ def _below(folder: Path, depth: int) -> Iterator[Path]:
 
 
 def _sorted_out(files: Sequence[Path]) -> tuple[list[Path], list[Path], list[Path]]:
-    """Skylines, in CSV before JSON; other CSV and JSON; pictures, those of truths' folders if any."""
+    """Skylines, in CSV first; other CSV and JSON; pictures, those of truths' folders if any."""
     texts = [file for file in files if file.suffix.lower() in SKYLINE_SUFFIXES]
     good = [file for file in texts if begins_like_a_skyline(file)]
     pictures = [

@@ -24,6 +24,7 @@ from .paired import all_paired as all_paired
 from .paired import paired as paired
 from .results import PhotoResult as PhotoResult
 from .results import Summary as Summary
+from .results import mean_interval as mean_interval
 from .results import worst as worst
 from .sky_runs import learn_sky as learn_sky
 from .sweeping import sweep as sweep

@@ -18,7 +18,7 @@ from skyline_viz.detector import Detector
 from skyline_viz.evaluation.dealing import SPLIT, write_split
 from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.paired import all_paired
-from skyline_viz.evaluation.results import PhotoResult, Summary
+from skyline_viz.evaluation.results import PhotoResult, Summary, mean_interval
 from skyline_viz.evaluation.seen import in_titles
 from skyline_viz.files import replacing, write_text
 from skyline_viz.method import Method
@@ -81,6 +81,11 @@ def write_summary(
         "folds": found.folds,
         "seed": found.seed,
         "summary": {name: _without_nan(one) for name, one in found.summaries.items()},
+        "mean_intervals": {
+            name: [*mean_interval(results, groups)]
+            for name, results in found.results.items()
+            if results
+        },
         "seen_in_training": {
             name: {one.name: one.seen for one in results if one.seen}
             for name, results in found.results.items()
