@@ -5,8 +5,8 @@ A fingerprint is text of three parts, each of hexadecimal digits:
 - a digest of the pixels;
 - 256 bits, one for each region of a grid of 16 x 16: whether it is brighter than what surrounds it.
   Copies of 40 % of the size, saved as JPEG of a low quality, differ from their photos in at most 7
-  of these bits. Of 481 different photographs of six data sets, each compared with each, 6 pairs
-  differ in 8 or fewer, and each of them shows one place twice;
+  of these bits (621 photographs of seven data sets). Apart from copies, 3 pairs of all that can be
+  made of these differ in 8 or fewer, and each of the 3 shows one place twice;
 - a digest of the name of the clip. A camera turns between two frames of a clip that are seconds
   apart, until they have nothing in common but the place; so their names tell. ``clip07-001`` and
   ``clip07-002`` are alike but for the last of two numbers, and as large as each other. A name with
