@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help demo test check docs bounds fuzz legs next bench reliability pictures samples bank sky lock clean
+.PHONY: help demo test check docs bounds fuzz legs next bench reliability pictures samples bank sky seen lock clean
 
 SOURCES = pyproject.toml requirements.txt tools/setup.sh
 MKDOCS = NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict --quiet
@@ -81,6 +81,9 @@ sky: .venv/.installed-dev  ## Train the shipped sky models; DATA=FOLDER as for b
 	    --out $(SKY_SCENES)
 	$(LEARN_SKY) --learn-sky small --steps 14000 --out skyline_viz/sky_small.onnx
 	$(LEARN_SKY) --learn-sky large --steps 5000 --out skyline_viz/sky_large.onnx
+
+seen: .venv/.installed-dev  ## Put fingerprints of the training photographs into what is shipped; DATA=FOLDER as for bank.
+	.venv/bin/python -m tools.photos_seen "$(DATA)"
 
 LOCK = .venv/bin/uv pip compile --quiet $(if $(UPGRADE),--upgrade) --universal --python-version 3.11 --generate-hashes \
     --no-emit-index-url --no-header pyproject.toml --group build

@@ -61,11 +61,11 @@ def measured(data: Path, models: Path | None) -> str:
         rows += [_row(name, known, found, unseen)]
         if config == default:
             text = f"{_reliability(found, unseen)}\n\n{_coefficients(found)}"
-    header = ["detector", "photos, gross", "AUROC", *(one.name for one in known), "Spearman"]
+    header = ["detector", "photos, gross", "all", *(one.name for one in known)]
     return (
-        "## Confidence of a photo\n\nGross misses told from the rest: the area under the curve, "
-        "over all sources and in each that has gross misses; and the rank correlation of "
-        "confidence and A_err. Filters, sky model and coefficients have not seen the place. "
+        "## Confidence of a photo\n\nGross misses told from the rest: the area under the curve "
+        "(AUROC), over all sources and in each that has gross misses; and after it the rank "
+        "correlation (Spearman) of doubt and A_err. Filters, sky model and coefficients have not seen the place. "
         f"{small.missing(known)}\n\n{markdown(header, rows)}\n\n{text}"
     )
 
@@ -124,15 +124,20 @@ def _left_out(found: Sequence[Seen]) -> F64:
 
 def _row(name: str, known: Sequence[Source], found: Sequence[Seen], told: F64) -> list[str]:
     gross, of = _gross(found), np.array([one.source for one in found])
-    errors = [one.error for one in found]
-    cells = [name, f"{len(found)}, {gross.sum()}", _area(gross, told)]
-    cells += [_area(gross[of == one.name], told[of == one.name]) for one in known]
-    return [*cells, f"{-float(spearmanr(told, errors).statistic):.2f}"]
+    errors = np.array([one.error for one in found])
+    parts = [np.ones(len(found), np.bool_), *(of == one.name for one in known)]
+    told_of = [f"{_area(gross[at], told[at])}, {_rank(errors[at], told[at])}" for at in parts]
+    return [name, f"{len(found)}, {gross.sum()}", *told_of]
 
 
 def _area(gross: Bool, told: F64) -> str:
     """The area under the curve; a dash where there is nothing to tell apart."""
     return f"{roc_auc_score(gross, -told):.3f}" if 0 < gross.sum() < len(gross) else "-"
+
+
+def _rank(errors: F64, told: F64) -> str:
+    """How alike photos are ordered by their error and by what is told; a dash for too few."""
+    return f"{-float(spearmanr(told, errors).statistic):.2f}" if len(errors) > 2 else "-"
 
 
 def _reliability(found: Sequence[Seen], told: F64) -> str:

@@ -29,7 +29,7 @@ from skyline_viz.skyline import Skyline
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
 from skyline_viz.tensor import Tensor, tensor_at
-from skyline_viz.training import GramMatrices, gather_item, solve, train
+from skyline_viz.training import GramMatrices, gather_item, solve
 
 STAGES = ("sky", "edges", "tensor", "bins", "score", "cost", "path")
 """The stages whose seconds are told, in their order."""
@@ -114,8 +114,11 @@ class Detector:
             >>> Detector().fit(items).bank.provenance.images
             2
         """
-        pairs = ((item.photo(), truth) for item in items if (truth := item.truth()) is not None)
-        return replace(self, bank=train(pairs, seed=seed, config=self.training))
+        sums = GramMatrices.empty(self.training)
+        for item in items:
+            if item.truth() is not None:
+                sums += self.gather(item, seed)
+        return self.from_sums(sums, seed)
 
     def gather(self, item: Item, seed: int = 0) -> GramMatrices:
         """What there is to learn from one photo: Gram matrices, which add up.

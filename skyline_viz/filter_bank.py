@@ -13,9 +13,9 @@ import numpy.typing as npt
 from skyline_viz.arrays import F32, read_only
 from skyline_viz.bins import Bins
 from skyline_viz.config import FILTER_SIZES, DetectorConfig, EdgeSource
-from skyline_viz.datasets.fingerprints import is_fingerprint
 from skyline_viz.files import replacing
 from skyline_viz.system import headed_npz
+from skyline_viz.system.fingerprints import packed, unpacked
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError, Stored, opened
 from skyline_viz.system.settings import plain_number
 
@@ -157,7 +157,7 @@ class FilterBank:
     def header(self) -> dict[str, Any]:
         """What a file that holds the bank says of it."""
         about = {"bins": asdict(self.bins), "provenance": asdict(self.provenance)}
-        return {"bank": {**about, "seen": [*self.seen]} if self.seen else about}
+        return {"bank": {**about, "seen": packed(self.seen)} if self.seen else about}
 
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
         """The arrays of a file that holds the bank."""
@@ -253,10 +253,10 @@ def _seen(header: dict[str, Any]) -> tuple[str, ...]:
     Raises:
         NpzError: It tells something else.
     """
-    seen = header.get("seen", [])
-    if not isinstance(seen, list) or not all(map(is_fingerprint, seen)):
-        raise NpzError("its header tells no fingerprints of photos")
-    return tuple(seen)
+    try:
+        return unpacked(header.get("seen", ""))
+    except ValueError as error:
+        raise NpzError("its header tells no fingerprints of photos") from error
 
 
 def _check_announced(arrays: Mapping[str, Stored], count: int) -> None:

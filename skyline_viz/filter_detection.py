@@ -27,7 +27,12 @@ from skyline_viz.stage import (
     STRENGTH,
     Stage,
 )
+from skyline_viz.system.fingerprints import fingerprint, known_as
 from skyline_viz.tensor import tensor_at, tensor_map
+
+_SEEN = {
+    "exact": "this photo", "near": "a near copy of this photo", "clip": "a frame of its clip",
+}  # fmt: skip
 
 if TYPE_CHECKING:
     from skyline_viz.detector import Detector
@@ -112,9 +117,18 @@ class FilterDetection(Detection):
         made = self.bank.provenance
         photos = f"{made.images} photos of {made.dataset}" if made.images else "an unknown source"
         sky = [] if self.sky is None else [f"Sky model {self.detector.sky.name}."]
+        learned = [("Filters have", self.bank.seen)]
+        if self.sky is not None:
+            learned.append(("The sky model has", self.detector.sky.seen))
+        own = fingerprint(self.photo) if any(others for _, others in learned) else ""
         return [
             f"{settings.capitalize()}.",
             *sky,
             f"Canny thresholds {low:.0f} and {high:.0f}.",
             f"Filters learned from {photos}.",
+            *(
+                f"{who} seen {_SEEN[known]} in training: its error is no test."
+                for who, others in learned
+                if (known := known_as(own, others))
+            ),
         ]

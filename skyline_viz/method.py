@@ -172,11 +172,11 @@ class LearnedMethod(Configured):
 
     def fit(self, items: Iterable[Item], seed: int = 0) -> Self:
         """See `Learner.fit`."""
-        return replace(self, model=self.learn(tuple(items), seed), learned_from="")
+        return replace(self, model=self.learn(tuple(items), seed), learned_from="", seen=())
 
     def sharing(self, other: LearnedMethod) -> Self:
         """See `Learner.sharing`."""
-        return replace(self, model=other.model, learned_from=other.learned_from)
+        return replace(self, model=other.model, learned_from=other.learned_from, seen=other.seen)
 
     def detect(self, photo: U8) -> Detection:
         """See `Method.detect`."""

@@ -31,6 +31,7 @@ from skyline_viz.networks.onnx_files import (
     read_notes,
 )
 from skyline_viz.networks.trial import digest_of, remember, survived
+from skyline_viz.system.fingerprints import unpacked
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
 from skyline_viz.system.settings import MethodError
 
@@ -47,6 +48,9 @@ NETWORK = "sky__network"
 TRAINED = "trained"
 """Name of the note of a file that says what the network was trained on, as JSON: ``photos`` holds
 the number of photos by data set."""
+
+SEEN = "seen"
+"""Name of the note that holds fingerprints of these photos, see `system.fingerprints.packed`."""
 
 LOGITS = "logit"
 """Name of an output that gives logits; by any other name it gives what its values look like."""
@@ -136,6 +140,14 @@ class SkyModel:
             return {str(name): int(count) for name, count in photos.items()}
         except (ValueError, KeyError, TypeError, AttributeError):
             return {}  # a network of somebody's
+
+    @cached_property
+    def seen(self) -> tuple[str, ...]:
+        """Fingerprints of the photos that it was trained on; none if these are not known."""
+        try:
+            return unpacked(read_notes(self.network).get(SEEN, ""))
+        except ValueError:
+            return ()  # a network of somebody's
 
     def sky(self, photo: U8) -> F32:
         """How probably each region of a photo is sky, ``(h, w)`` float32 in [0, 1].

@@ -35,11 +35,11 @@ from skyline_viz._version import __version__
 from skyline_viz.arrays import F64, U8, Bool, Int, check_photo
 from skyline_viz.bins import Bins
 from skyline_viz.config import TrainingConfig
-from skyline_viz.datasets.fingerprints import fingerprint
 from skyline_viz.datasets.item import Item, photo_and_truth
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.filter_bank import FilterBank, Provenance
 from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.system.fingerprints import fingerprint, telling
 from skyline_viz.tensor import tensor_at
 
 POSITIVE_TARGET = 255.0
@@ -138,12 +138,21 @@ def train(
     return solve(gram, seed, config, dataset)
 
 
-def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> GramMatrices:
+def gather(
+    photo: U8, truth: Skyline, seed: int, config: TrainingConfig, name: str = ""
+) -> GramMatrices:
     """Gram matrices of one photo.
 
     Positives are the edge pixels on the true line, or its pixels as they are with a reach of 0.
     Negatives are as many edge pixels away from it. All of them count a second time, flipped
     left-right.
+
+    Args:
+        photo: ``(H, W, 3)`` uint8 RGB.
+        truth: Its true line.
+        seed: Seed of the negatives.
+        config: What is learned, and how.
+        name: What the photo is called, which may tell of its clip, see `fingerprint`.
 
     Raises:
         SkylineError: The photo and the truth differ in width.
@@ -170,7 +179,7 @@ def gather(photo: U8, truth: Skyline, seed: int, config: TrainingConfig) -> Gram
     index = config.bins.of(tensor_at(photo, rows, columns))
     patches = _patches(to_grey(photo), rows, columns, config.filter_size)
     sums, samples = _summed(np.column_stack([patches, targets]), index, config.bins)
-    return GramMatrices(sums, samples, samples.astype(np.float64), 1, (fingerprint(photo),))
+    return GramMatrices(sums, samples, samples.astype(np.float64), 1, (fingerprint(photo, name),))
 
 
 def gather_item(config: TrainingConfig, seed: int, item: Item) -> GramMatrices:
@@ -180,7 +189,7 @@ def gather_item(config: TrainingConfig, seed: int, item: Item) -> GramMatrices:
         PhotoError: The photo cannot be read.
         SkylineError: It has no truth, or one that does not fit.
     """
-    return gather(*photo_and_truth(item), seed, config)
+    return gather(*photo_and_truth(item), seed, config, item.name)
 
 
 def together(datasets: Sequence[GramMatrices]) -> GramMatrices:
@@ -224,7 +233,7 @@ def solve(gram: GramMatrices, seed: int, config: TrainingConfig, dataset: str = 
         filters=regress(sums, config.smoothness).astype(np.float32),
         samples=gram.samples,
         bins=config.bins,
-        seen=tuple(sorted({*gram.seen})),
+        seen=tuple(sorted({*telling(gram.seen)})),
         provenance=Provenance(
             dataset=dataset,
             images=gram.images,

@@ -31,7 +31,6 @@ from pathlib import Path
 from annotate.formats import coco, cvat, labelme, masks, tables, whole
 from annotate.formats.common import (
     Entry,
-    FormatError,
     Imported,
     Writer,
     entries_of,
@@ -48,6 +47,7 @@ from annotate.formats.photo_names import PhotoNames
 from annotate.formats.sources import drawings_in, files_below, format_of
 from annotate.store.contents import Contents
 from annotate.store.labels import Label
+from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.files import make_folder, move_folder
 from skyline_viz.system.aftermath import passing_folder
 

@@ -16,12 +16,9 @@ from annotate.store.contents import Contents
 from annotate.store.folder import photos_below
 from annotate.store.labels import Label
 from skyline_viz.arrays import runs
+from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.skyline import Skyline, SkylineError
-
-
-class FormatError(ValueError):
-    """An export or import is not possible; the message is one sentence that says why."""
 
 
 @dataclass(frozen=True, eq=False)

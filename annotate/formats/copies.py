@@ -8,7 +8,7 @@ from dataclasses import replace
 from annotate.formats.common import Imported
 from annotate.formats.importing import Found
 from annotate.formats.rivals import difference
-from skyline_viz.command_line.messages import listed
+from skyline_viz.system.names import listed
 
 
 def unite_copies(found: Found, copies: Mapping[str, str]) -> None:

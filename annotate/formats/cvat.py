@@ -6,10 +6,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree as ET  # written only; `documents.xml_of` reads
 
-from annotate.formats.common import Entry, FormatError, runs_of_points
-from annotate.formats.drawings import Drawing, Shape, side_of, size_of_drawing
+from annotate.formats.common import Entry, runs_of_points
+from annotate.formats.drawings import Drawing, Shape
 from annotate.formats.importing import Found
-from annotate.formats.outlines import Points, Runs, check_pixels, points_of
+from skyline_viz.datasets.coco import side_of, size_of_drawing
+from skyline_viz.datasets.outlines import FormatError, Points, Runs, check_pixels, points_of
 from skyline_viz.files import write_text
 
 _LINE = "skyline"

@@ -12,7 +12,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 from xml.etree import ElementTree as ET  # documents with a DOCTYPE are refused
 
-from annotate.formats.common import FormatError
+from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.files import read_at_most
 
 MOST_BYTES = 500_000_000

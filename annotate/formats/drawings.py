@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
-from annotate.formats.common import FormatError
-from annotate.formats.outlines import Points, Runs
-from skyline_viz.command_line.messages import counted, listed
+from skyline_viz.command_line.messages import counted
+from skyline_viz.datasets.outlines import Points, Runs
+from skyline_viz.system.names import listed
 
 LINES, SKIES = ("skyline", "horizon"), ("sky",)
 """Labels of lines that are skylines, and of regions that are sky, unless others are named."""
@@ -110,52 +109,6 @@ def labels_found(shapes: Iterable[Shape]) -> str:
         for (label, kind), count in kinds.most_common()
     ]
     return listed(shown) if shown else "none"
-
-
-def text_of(told: Any, what: str) -> str:  # noqa: ANN401
-    """A value that is text.
-
-    Raises:
-        FormatError: It is not.
-    """
-    if not isinstance(told, str):
-        raise FormatError(f"{what} is no text")
-    return told
-
-
-def list_of(told: Any, what: str) -> list[Any]:  # noqa: ANN401
-    """A value that is a list.
-
-    Raises:
-        FormatError: It is not.
-    """
-    if not isinstance(told, list):
-        raise FormatError(f"{what} is no list")
-    return told
-
-
-def side_of(told: Any) -> int:  # noqa: ANN401
-    """A height or width in pixels.
-
-    Raises:
-        FormatError: It is none.
-    """
-    try:
-        side = int(told)
-    except (TypeError, ValueError, OverflowError):
-        raise FormatError("its height or width is no number") from None
-    if not 0 < side <= 10**5 or isinstance(told, bool):
-        raise FormatError(f"a side of {side} pixels is none of a photo")
-    return side
-
-
-def size_of_drawing(height: Any, width: Any) -> tuple[int, int] | None:  # noqa: ANN401
-    """The size that a file tells; None where it tells none.
-
-    Raises:
-        FormatError: It is none of a photo.
-    """
-    return None if height is None or width is None else (side_of(height), side_of(width))
 
 
 def _plain(label: str) -> str:

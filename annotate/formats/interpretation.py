@@ -8,16 +8,16 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from annotate.formats.common import FormatError, Imported, size_of
+from annotate.formats.common import Imported, size_of
 from annotate.formats.documents import misread
 from annotate.formats.drawings import Drawing, Shape, Wanted, labels_found
 from annotate.formats.importing import Found
-from annotate.formats.outlines import line_rows, own_rows, polygon_mask
 from annotate.formats.photo_names import PhotoNames
 from annotate.formats.rivals import refuse_rivals
-from skyline_viz.command_line.messages import listed
+from skyline_viz.datasets.outlines import FormatError, line_rows, own_rows, polygon_mask
 from skyline_viz.datasets.sky_region import line_of
 from skyline_viz.skyline import Skyline, SkylineError, fill
+from skyline_viz.system.names import listed
 
 
 def interpret(

@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from annotate.formats.common import Entry, FormatError, runs_of_points
-from annotate.formats.drawings import Drawing, Shape, list_of, size_of_drawing, text_of
+from annotate.formats.common import Entry, runs_of_points
+from annotate.formats.drawings import Drawing, Shape
 from annotate.formats.importing import Found
-from annotate.formats.outlines import Points, Runs, check_pixels, points_of
+from skyline_viz.datasets.coco import list_of, size_of_drawing, text_of
+from skyline_viz.datasets.outlines import FormatError, Points, Runs, check_pixels, points_of
 from skyline_viz.files import write_text
 
 _LINE = "skyline"

@@ -12,10 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
-from annotate.formats.common import Entry, FormatError, Imported, check_size
+from annotate.formats.common import Entry, Imported, check_size
 from annotate.formats.importing import Task
 from skyline_viz.datasets.label_picture import label_size
 from skyline_viz.datasets.matching import TRUTH_FOLDERS
+from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.datasets.truths import truth_with_notes
 from skyline_viz.photo import PHOTO_SUFFIXES, PhotoError, photo_size, read_photo, write_photo
 from skyline_viz.skyline import Skyline, SkylineError

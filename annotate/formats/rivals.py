@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 import numpy.typing as npt
 
-from annotate.formats.common import FormatError
+from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.datasets.sky_region import spans_of
 from skyline_viz.skyline import Skyline
 

@@ -6,14 +6,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from annotate.formats.coco import RLE, drawings_of_coco
-from annotate.formats.common import FormatError
+from annotate.formats.coco import drawings_of_coco
 from annotate.formats.cvat import drawings_of_cvat
 from annotate.formats.documents import json_of, xml_of
 from annotate.formats.drawings import Drawing
 from annotate.formats.importing import Found
 from annotate.formats.kinds import READ, kind_of, kind_of_json, kind_of_xml, shown
 from annotate.formats.labelme import drawing_of_labelme
+from skyline_viz.datasets.coco import RLE
+from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.photo import PHOTO_SUFFIXES
 
 _MOST_FILES = 200_000

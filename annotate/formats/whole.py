@@ -11,16 +11,18 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
 from annotate.engine.edits import ORIGINS, Origin
-from annotate.formats.common import Entry, FormatError, Imported, check_size
+from annotate.formats.common import Entry, Imported, check_size
 from annotate.formats.documents import json_of
 from annotate.formats.importing import Task
 from annotate.formats.orphans import gone
 from annotate.store.contents import Contents
 from annotate.store.labels import MOST_PASSES, Label, Status, check_annotator
+from skyline_viz.datasets.line_documents import LABELS
+from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.files import write_text
 from skyline_viz.skyline import Skyline, SkylineError
 
-FORMAT = "skyline-labels"
+FORMAT = LABELS
 """What ``labels.json`` says that it is."""
 
 MOST_LABELS = 100_000

@@ -7,8 +7,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from skyline_viz.command_line.messages import UsageError, listed
+from skyline_viz.command_line.messages import UsageError
 from skyline_viz.config import DetectorConfig
+from skyline_viz.system.names import listed
 
 _MOST_BYTES = 256_000_000
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
-from skyline_viz.command_line.messages import counted, listed, say
+from skyline_viz.command_line.messages import counted, say
+from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -42,15 +44,28 @@ class Folds:
         """Whether there is a cross-validation."""
         return bool(self.folds) or self.split is not None
 
-    def groups(self, items: Sequence[DatasetItem]) -> Mapping[str, str] | None:
+    def groups(self, items: Sequence[DatasetItem], workers: int = 1) -> Mapping[str, str] | None:
         """The group of each photo by its name; None where each is one of its own.
+
+        In a cross-validation photos that are nearly the same are in one, whatever --group says.
 
         Raises:
             ValueError: It is no grouping.
         """
-        from skyline_viz.evaluation import grouped
+        from skyline_viz.evaluation import grouped, kept_together
 
-        return None if self.group is None else grouped(items, self.group)
+        asked = None if self.group in (None, "near") else grouped(items, str(self.group))
+        if not (self.folds or self.group == "near"):
+            return asked
+        groups = kept_together(items, asked, workers=workers)
+        if self.group is None:
+            several = {one for one, count in Counter(groups.values()).items() if count > 1}
+            if not several:
+                return None
+            names = [name for name, group in groups.items() if group in several]
+            which = f"{counted(len(names), 'photo')} in {counted(len(several), 'group')}"
+            say(f"kept in one fold, as they are nearly the same or of a clip: {which}.")
+        return groups
 
     def dealt(
         self, items: Sequence[DatasetItem], groups: Mapping[str, str] | None

@@ -5,14 +5,14 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import count
 from pathlib import Path
 
-from skyline_viz.command_line.messages import UsageError, counted, listed, say, say_last
+from skyline_viz.command_line.messages import UsageError, counted, say, say_last
 from skyline_viz.command_line.truth_options import Truths
 from skyline_viz.datasets.layouts import Dataset, DatasetItem, truth_names
 from skyline_viz.datasets.matching import TRUTH_FOLDERS
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.running.batch import Failure
-from skyline_viz.system.names import shortened
+from skyline_viz.system.names import listed, shortened
 
 _LONGEST = 255 - len("-overlay.jpg")
 """Bytes of an output's name, without the longest ending that we put to it."""

@@ -8,14 +8,8 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
-from skyline_viz.command_line.messages import (
-    SOME_FAILED,
-    UsageError,
-    counted,
-    listed,
-    say,
-    status_after,
-)
+from skyline_viz.command_line.messages import SOME_FAILED, UsageError, counted, say, status_after
+from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
     from skyline_viz.command_line.truth_options import Truths

@@ -67,16 +67,6 @@ def _write(line: str, stream: TextIO) -> None:
     print(line.encode(encoding, "backslashreplace").decode(encoding), file=stream, flush=True)
 
 
-def listed(names: Sequence[str], most: int = 8) -> str:
-    """Names in a sentence.
-
-    >>> listed(["a", "b", "c"], most=2)
-    'a, b and 1 more'
-    """
-    more = len(names) - most
-    return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
-
-
 def counted(count: int, noun: str) -> str:
     """A number and a noun.
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
-from skyline_viz.command_line.messages import UsageError, counted, listed, say
+from skyline_viz.command_line.messages import UsageError, counted, say
 from skyline_viz.system.memory import (
     DETECTING,
     available,
@@ -17,6 +17,7 @@ from skyline_viz.system.memory import (
     needed,
     photo_limit,
 )
+from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
     from skyline_viz.datasets.layouts import DatasetItem

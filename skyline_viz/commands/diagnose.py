@@ -40,13 +40,15 @@ class Diagnose(OnTruth):
 
     def run(self) -> int:
         """Diagnose all photos that have a truth; return the exit status."""
+        from skyline_viz.evaluation.seen import notes as seen_notes
+
         diagnosis.checked_tolerance(self.tolerance)
         check_report(self.report)
         dataset, items = self.open()
         if self.photo and self.photo not in {item.name for item in items}:
             raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
         workers, kept = self.begin("diagnose", dataset, items, self.out, RECORDING)
-        groups = self.folds.groups(items) if self.folds.asked else None
+        groups = self.folds.groups(items, workers) if self.folds.asked else None
         folds = self.folds.dealt(items, groups)
         assigned = evaluation.assign(
             items, [self._method()], folds,
@@ -64,6 +66,8 @@ class Diagnose(OnTruth):
         )
         if done := kept.said():
             say(done)
+        for note in seen_notes(name, {one.name: one.seen for one in found}, folds=bool(folds)):
+            say(note)
         self._tell(dataset.name, found)
         failures = [*assigned.failures[name], *failed]
         if self.report:

@@ -12,13 +12,14 @@ from skyline_viz.command_line.lines import (
     open_lines,
     status_after_lines,
 )
-from skyline_viz.command_line.messages import UsageError, counted, listed, say, tell, tell_drawn
+from skyline_viz.command_line.messages import UsageError, counted, say, tell, tell_drawn
 from skyline_viz.command_line.on_truth import OnTruth
 from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder
+from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from skyline_viz.datasets import Dataset
     from skyline_viz.evaluation import Evaluation
@@ -52,12 +53,10 @@ class Evaluate(OnTruth):
                 "a report shows stages, which files of lines have not; name a --method."
             )
         workers, kept = self.begin("evaluate", dataset, items, self.out)
-        groups = self.folds.groups(items)
+        groups = self.folds.groups(items, workers)
         folds = self.folds.dealt(items, groups)
         said = self.folds.said(folds, groups)
-        chosen, how = (
-            self._methods(dataset.name, said) if not lines or self.methods.given else ([], "")
-        )
+        chosen, how = self._methods(said) if not lines or self.methods.given else ([], "")
         tested_ones: list[Tested] = [*chosen, *lines]
         if not chosen:
             how = f"lines of {listed([one.source for one in lines])}{said and f', {said}'}"
@@ -81,8 +80,9 @@ class Evaluate(OnTruth):
             }
             evaluation.write_evaluation(self.out, found, about=about, title=title, groups=groups)
             kept.remove()
-        _print(title, found)
-        _tell_seen(dataset.name, found)
+        _print(title, found, groups)
+        for note in found.notes:
+            say(note)
         tell(*(one.said for one in evaluation.all_paired(found.results, groups)))
         if self.out:
             tell(f"{listed(evaluation.FILES)} in {self.out}")
@@ -104,21 +104,9 @@ class Evaluate(OnTruth):
             results=found.results, notes=notes, workers=workers,
         )  # fmt: skip
 
-    def _methods(self, dataset: str, folds: str) -> tuple[Sequence[Method], str]:
-        """What is to be tested and how; says so where that was trained on these very photos."""
-        from skyline_viz.evaluation.seen import photos_learned
-
+    def _methods(self, folds: str) -> tuple[Sequence[Method], str]:
+        """What is to be tested, and how in a few words."""
         chosen = self.methods.chosen(to_train=bool(folds))
-        for one in chosen:
-            learned = methods.learned_from(one)
-            told = bool(photos_learned(one))  # the photos themselves are then known again
-            if not folds and not told and dataset in (learned, *learned.split(", ")):
-                say(f"{one.name} was trained on {dataset}, so this is no test; see --folds.")
-            elif dataset in sky_learned_from(one).split(", "):
-                say(
-                    f"the sky model of {one.name} was trained on {dataset}, also on the photos "
-                    f"that it is tested on; sky_weight=0 does without."
-                )
         if len(chosen) > 1:
             return chosen, folds or "as they are"
         (one,) = chosen
@@ -128,29 +116,7 @@ class Evaluate(OnTruth):
         return chosen, folds or f"filter bank trained on {learned or 'an unnamed data set'}"
 
 
-def _tell_seen(dataset: str, found: Evaluation) -> None:
-    """Say which photos were seen in training, whatever they are called and wherever they lie."""
-    for name, results in found.results.items():
-        seen = [one.name for one in results if one.seen]
-        if seen and len(seen) == len(results) and not found.folds:
-            say(f"{name} was trained on {dataset}, so this is no test; see --folds.")
-        elif seen:
-            say(
-                f"{name} has seen {len(seen)} of {len(results)} photos in training, or near copies "
-                f"of them, and their errors are no test: {listed(seen)}."
-            )
-
-
-def sky_learned_from(method: Method) -> str:
-    """Names of the data sets that the sky model of a method was trained on; empty without one."""
-    from skyline_viz.detector import Detector
-
-    if isinstance(method, Detector) and method.config.sky_weight:
-        return method.sky.learned_from
-    return ""
-
-
-def _print(title: str, found: Evaluation) -> None:
+def _print(title: str, found: Evaluation, groups: Mapping[str, str] | None) -> None:
     """A method alone with its worst photos, several as a table."""
     if len(found.results) > 1:
         tell(f"{title}; A_err in px")
@@ -159,5 +125,6 @@ def _print(title: str, found: Evaluation) -> None:
     for results in found.results.values():
         if results:
             tell(title)
-            summary = evaluation.summary_table(evaluation.Summary.of(results))
+            interval = evaluation.mean_interval(results, groups)
+            summary = evaluation.summary_table(evaluation.Summary.of(results), interval)
             tell_drawn(summary, evaluation.worst_table(evaluation.worst(results)))

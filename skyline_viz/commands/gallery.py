@@ -145,6 +145,7 @@ def build(
     beside: Method | None = None,
 ) -> tuple[list[Entry], list[Failure]]:
     """Bring a gallery up to date, and return its photos, the worst first, and those that failed."""
+    from skyline_viz.evaluation.seen import notes as seen_notes
     from skyline_viz.gallery.better_worse import tables
     from skyline_viz.gallery.entry import by_need
     from skyline_viz.gallery.store import Gallery
@@ -158,6 +159,9 @@ def build(
         else:
             entries.append(outcome)
     tell(f"{counted(len(entries), 'photo')} in {out}")
+    known = {one.name: one.seen for one in entries if one.verdict.a_err is not None}
+    for note in seen_notes(method.name, known, folds=True):
+        say(note)
     tell(*tables(entries).splitlines())
     return by_need(entries), failures
 

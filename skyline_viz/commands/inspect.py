@@ -311,8 +311,7 @@ class Inspect:
             log_along_columns(recording, found, truth, openings)
         if sweeps and ours:
             inspect_more.log_sweeps(recording, sweeps, ours, truth)
-        error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
-        tell(f"{one.name}{error}  margin {verdict.margin:.3g}")
+        inspect_more.tell_verdict(verdict, using.detector, photo, one.name)
         if beside:
             tell(f"{one.name}: {parting_words.said(beside.parting)}")
         if found.visibility and found.visibility.doubt:

@@ -6,15 +6,17 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from skyline_viz.command_line.messages import tell
+from skyline_viz.command_line.messages import say, tell
 from skyline_viz.running.progress import ProgressBar
 
 if TYPE_CHECKING:
     import rerun as rr
 
+    from skyline_viz.arrays import U8
     from skyline_viz.detection import Detection
     from skyline_viz.diagnosis.diagnosing import Diagnosis
     from skyline_viz.diagnosis.sweep import Sweep
+    from skyline_viz.evaluation.verdict import Verdict
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.filter_detection import FilterDetection
     from skyline_viz.method import Method
@@ -22,6 +24,18 @@ if TYPE_CHECKING:
     from skyline_viz.viewer.contents import Fidelity, MethodContents
 
 _WARM = 64  # rows and columns of a detection before the timed one
+
+
+def tell_verdict(verdict: Verdict, method: Method, photo: U8, name: str) -> None:
+    """Tell how wrong and how sure a line is, and where the photo was seen in training."""
+    from skyline_viz.evaluation.seen import notes, seen_in_training
+
+    error = "" if verdict.a_err is None else f"  A_err {verdict.a_err:.2f} px"
+    tell(f"{name}{error}  margin {verdict.margin:.3g}")
+    if verdict.a_err is None:
+        return
+    for note in notes(method.name, {name: seen_in_training(method, photo, name)}, folds=True):
+        say(note)
 
 
 def log_diagnosis(

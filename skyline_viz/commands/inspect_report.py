@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skyline_viz.command_line.messages import UsageError, status_after, tell
+from skyline_viz.command_line.messages import UsageError, say, status_after, tell
 from skyline_viz.command_line.reporting import write
 from skyline_viz.command_line.sizes import foresee
 from skyline_viz.system.memory import RECORDING
@@ -30,6 +30,7 @@ def write_report(
     Raises:
         UsageError: There are several methods.
     """
+    from skyline_viz.evaluation.seen import notes
     from skyline_viz.evaluation.tasks import photo_tasks
     from skyline_viz.reports import Report, look_at
 
@@ -45,5 +46,8 @@ def write_report(
     for one in photos:
         error = "" if one.a_err is None else f"  A_err {one.a_err:.2f} px"
         tell(f"{one.name}{error}  margin {one.verdict.margin:.3g}")
+    known = {one.name: one.seen for one in photos if one.a_err is not None}
+    for note in notes(method.name, known, folds=True):
+        say(note)
     write(path, Report(title, photos, method.name, failures=failures))
     return status_after(failures)

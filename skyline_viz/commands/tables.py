@@ -15,7 +15,6 @@ from skyline_viz.command_line.messages import (
     SOME_FAILED,
     UsageError,
     counted,
-    listed,
     say,
     status_after,
     tell,
@@ -27,6 +26,7 @@ from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.files import write_text
 from skyline_viz.methods.names import NAMES
 from skyline_viz.system.memory import MAX_MEGAPIXELS
+from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
     from skyline_viz.datasets import DatasetItem

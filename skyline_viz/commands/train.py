@@ -202,7 +202,9 @@ class Train:
         if not isinstance(method, Learner):
             raise UsageError(f"the method {self.method} has nothing to learn.")
         fitted = method.fit(items, self.seed)
-        save_method(fitted, self.out, Trained(dataset, len(items), self.seed))
+        seen = tuple(evaluation.fingerprints(items).values())
+        trained = Trained(dataset, len(items), self.seed, seen)
+        save_method(fitted, self.out, trained)
         tell(f"{method.name}, trained on {counted(len(items), 'photo')} of {dataset}")
         tell(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
         return GOOD

@@ -1,7 +1,8 @@
 """Lines that somebody else has found: another method's, another network's, another person's.
 
 They come as files, one for each photo, in whatever a truth may be in: CSV, JSON, masks of either
-polarity, painted photos. The names decide which photo a file is for, as they do for truths.
+polarity, painted photos; or for many photos as one document. The names decide which photo a file is
+for, as they do for truths.
 """
 
 from __future__ import annotations
@@ -11,15 +12,19 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from skyline_viz.datasets.coco import POLYGON
 from skyline_viz.datasets.item import Item
 from skyline_viz.datasets.label_picture import label_size
 from skyline_viz.datasets.layouts import DatasetError, DatasetItem
+from skyline_viz.datasets.line_documents import LineInCoco, documents_in, lines_in
 from skyline_viz.datasets.matching import TRUTH_FOLDERS, bare_stem, common_name
 from skyline_viz.datasets.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, read_truth
 from skyline_viz.photo import PHOTO_SUFFIXES, photo_size
 from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.system.names import listed
 
 _DEEP = 4  # folders below folders
+_OURS = (POLYGON, "skylines.csv", "run.json")  # what we write beside lines
 _OVERLAY = "-overlay"  # what we add to the name of a photo with its line drawn on it
 
 
@@ -67,8 +72,8 @@ class Predictions:
     name: str
     """What they are called in tables."""
 
-    lines: Mapping[str, Skyline | LineFile]
-    """The line of each photo, or its file."""
+    lines: Mapping[str, Skyline | LineFile | LineInCoco]
+    """The line of each photo, or where it is read from."""
 
     extra: tuple[str, ...] = ()
     """Files that belong to no photo."""
@@ -91,7 +96,7 @@ class Predictions:
             SkylineError: It does not fit the photo, or its file is damaged.
         """
         line, size = self.lines[item.name], size_of(item)
-        if isinstance(line, LineFile):
+        if not isinstance(line, Skyline):
             line = line.read(size)
         if line.width != size[1]:
             raise SkylineError(f"its line has {line.width} columns, and the photo {size[1]}")
@@ -118,8 +123,9 @@ def open_predictions(
 
     A file is called as its photo is, with another ending, and with ``_mask`` or the like besides,
     as truths are; or as `skyline-viz detect` and `skyline-annotate export` call theirs. Of several
-    files of a photo CSV counts first, then JSON, then pictures. Pictures of lines drawn on photos,
-    ``NAME-overlay.jpg``, are none of them.
+    files of a photo CSV counts first, then JSON, then pictures. A document may hold the lines of
+    many photos: COCO, or ``labels.json`` of an export. The table and the record of a run of
+    `skyline-viz detect` are no lines, nor are its pictures ``NAME-overlay.jpg``.
 
     Args:
         source: The folder or file.
@@ -135,11 +141,15 @@ def open_predictions(
     if not root.exists():
         raise DatasetError(f"{root} does not exist.")
     found = _Matching(root, _Names(items), sky, terrain)
-    for file in _usable(_files(root), found.notes):
+    texts, others, pictures = _sorted_out(_files(root))
+    for file in texts:
+        found.add(file)
+    found.add_documents(others)
+    for file in pictures:
         found.add(file)
     if not found.lines:
         raise DatasetError(f"{root} holds no line for any of the {len(items)} photos{found.why()}.")
-    notes = tuple(f"{text}: {_listed(names)}." for text, names in found.notes.items())
+    notes = tuple(f"{text}: {listed(names)}." for text, names in found.notes.items())
     return Predictions(
         name or root.absolute().name, found.lines, tuple(found.extra), notes, f"{root}"
     )
@@ -153,30 +163,60 @@ class _Matching:
     names: _Names
     sky: str | None
     terrain: str | None
-    lines: dict[str, LineFile] = field(default_factory=dict)
+    lines: dict[str, Skyline | LineFile | LineInCoco] = field(default_factory=dict)
     extra: list[str] = field(default_factory=list)
     notes: dict[str, list[str]] = field(default_factory=dict)
 
     def add(self, file: Path) -> None:
         """Take a file for the line of the photo that it is called after."""
         inside = file.relative_to(self.root) if file != self.root else Path(file.name)
-        photos = self.names.meant_by(inside)
+        self._take(inside.as_posix(), [inside], LineFile(file, self.sky, self.terrain))
+
+    def add_documents(self, files: Sequence[Path]) -> None:
+        """Take the lines of many photos; what else is JSON or CSV is noted.
+
+        Raises:
+            DatasetError: A file cannot be read.
+        """
+        try:
+            documents = documents_in(files)
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            raise DatasetError(f"{error.filename} cannot be read: {reason}.") from error
+        for file, document in documents:
+            for names, line in lines_in(file, document, self, self.sky, self.terrain):
+                self._take(f"{names[0]} in {file.name}", [*map(Path, names)], line)
+        known = {file for file, _ in documents}
+        for file in files:
+            if file not in known and file.name not in _OURS:
+                self.note("not used, because they hold no skyline", file.name)
+
+    def problem(self, sentence: str) -> None:
+        """See `coco.Reports`."""
+        self.note("not used", sentence.rstrip("."))
+
+    def note(self, text: str, of: object = None) -> None:
+        """See `coco.Reports`."""
+        self.notes.setdefault(text, []).append(f"{of}")
+
+    def _take(
+        self, called: str, names: Sequence[Path], line: Skyline | LineFile | LineInCoco
+    ) -> None:
+        photos = next(filter(None, map(self.names.meant_by, names)), set())
         if not photos:
-            self.extra.append(inside.as_posix())
+            self.extra.append(called)
         elif len(photos) > 1:
-            told = "not used, because each could be for several photos"
-            self.notes.setdefault(told, []).append(inside.as_posix())
+            self.note("not used, because each could be for several photos", called)
         elif (photo := photos.pop()) in self.lines:
-            told = "not used, because another file of the same photo is"
-            self.notes.setdefault(told, []).append(inside.as_posix())
+            self.note("not used, because another file of the same photo is", called)
         else:
-            self.lines[photo] = LineFile(file, self.sky, self.terrain)
+            self.lines[photo] = line
 
     def why(self) -> str:
         """What there is instead, to end a sentence."""
         if self.extra:
-            return f"; its files, such as {_listed(self.extra, 3)}, are called otherwise"
-        return "".join(f"; {text}: {_listed(names, 3)}" for text, names in self.notes.items())
+            return f"; its files, such as {listed(self.extra, 3)}, are called otherwise"
+        return "".join(f"; {text}: {listed(names, 3)}" for text, names in self.notes.items())
 
 
 class _Names:
@@ -233,21 +273,15 @@ def _below(folder: Path, depth: int) -> Iterator[Path]:
             yield from _below(one, depth + 1)
 
 
-def _usable(files: Sequence[Path], notes: dict[str, list[str]]) -> list[Path]:
-    """Files that may hold a line: CSV, then JSON, then pictures, those in folders of truths."""
+def _sorted_out(files: Sequence[Path]) -> tuple[list[Path], list[Path], list[Path]]:
+    """Skylines, in CSV first; other CSV and JSON; pictures, those of truths' folders if any."""
     texts = [file for file in files if file.suffix.lower() in SKYLINE_SUFFIXES]
     good = [file for file in texts if begins_like_a_skyline(file)]
-    if other := [file.name for file in texts if file not in good]:
-        notes["not used, because they hold no skyline"] = other
     pictures = [
         file
         for file in files
         if file.suffix.lower() in PHOTO_SUFFIXES and not file.stem.endswith(_OVERLAY)
     ]
     inside = [file for file in pictures if file.parent.name.lower() in TRUTH_FOLDERS]
-    return [*sorted(good, key=lambda file: file.suffix.lower()), *(inside or pictures)]
-
-
-def _listed(names: Sequence[str], most: int = 8) -> str:
-    more = len(names) - most
-    return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
+    others = [file for file in texts if file not in good]
+    return sorted(good, key=lambda file: file.suffix.lower()), others, inside or pictures

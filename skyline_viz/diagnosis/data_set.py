@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -13,6 +14,7 @@ from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.diagnosis.record import Diagnosed, pack, unpack
 from skyline_viz.diagnosis.remedies import try_remedies
 from skyline_viz.evaluation.metrics import column_errors, is_gross_miss
+from skyline_viz.evaluation.seen import seen_in_training
 from skyline_viz.evaluation.tasks import PhotoTask, run_tasks
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.resume import Codec, Kept
@@ -66,7 +68,8 @@ def diagnose_photo(tolerance: float | None, task: PhotoTask, *, remedies: bool) 
     photo, truth = photo_and_truth(task.item)
     warm_up()
     detection = task.method.detect(photo)
-    return diagnose_detection(task.name, detection, truth, tolerance, remedies=remedies)
+    found = diagnose_detection(task.name, detection, truth, tolerance, remedies=remedies)
+    return replace(found, seen=seen_in_training(task.method, photo, task.name))
 
 
 def diagnose_detection(

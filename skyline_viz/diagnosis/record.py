@@ -30,6 +30,9 @@ class Diagnosed:
     remedies: tuple[Remedy, ...]
     """Other settings, tried on the photo; nothing unless asked for."""
 
+    seen: str = ""
+    """What has seen the photo in training, see `evaluation.seen.seen_in_training`."""
+
 
 def pack(one: Diagnosed) -> dict[str, Any]:
     """An object of strings, numbers and lists."""
@@ -38,6 +41,7 @@ def pack(one: Diagnosed) -> dict[str, Any]:
         "a_err": one.a_err,
         "gross_miss": one.gross_miss,
         "visible": one.visible,
+        "seen": one.seen,
         "tolerance": one.diagnosis.tolerance,
         "segments": [_segment(segment) for segment in one.diagnosis.segments],
         "remedies": [vars(remedy) for remedy in one.remedies],
@@ -55,7 +59,7 @@ def unpack(record: dict[str, Any]) -> Diagnosed:
     segments = tuple(_made(segment) for segment in record["segments"])
     remedies = tuple(Remedy(**remedy) for remedy in record["remedies"])
     diagnosis = Diagnosis(segments, record["tolerance"])
-    told = {name: record[name] for name in ("name", "a_err", "gross_miss", "visible")}
+    told = {name: record[name] for name in ("name", "a_err", "gross_miss", "visible", "seen")}
     return Diagnosed(**told, diagnosis=diagnosis, remedies=remedies)
 
 

@@ -107,7 +107,8 @@ def write_picture(path: str | os.PathLike[str], name: str, found: Sequence[Diagn
 def in_full(one: Diagnosed) -> str:
     """Everything about a photo, for a terminal."""
     diagnosis = one.diagnosis
-    lines = [f"{printable(one.name)}  A_err {one.a_err:.2f} px"]
+    seen = f"  seen in training ({one.seen})" if one.seen else ""
+    lines = [f"{printable(one.name)}  A_err {one.a_err:.2f} px{seen}"]
     if diagnosis.right:
         return f"{lines[0]}\n{diagnosis.said_right}"
     for segment in diagnosis.by_error:
@@ -183,6 +184,7 @@ def write_json(path: str | os.PathLike[str], name: str, found: Sequence[Diagnose
             "name": one.name,
             "a_err": one.a_err,
             "gross_miss": one.gross_miss,
+            "seen": one.seen,
             **one.diagnosis.document(),
             "remedies": [vars(remedy) for remedy in one.remedies],
         }

@@ -5,7 +5,9 @@ from .cross_validation import evaluate as evaluate
 from .curves import TOLERANCES as TOLERANCES
 from .curves import curve as curve
 from .dealing import deal as deal
+from .dealing import fingerprints as fingerprints
 from .dealing import grouped as grouped
+from .dealing import kept_together as kept_together
 from .dealing import read_split as read_split
 from .evaluated import Evaluation as Evaluation
 from .intervals import Interval as Interval
@@ -22,6 +24,7 @@ from .paired import all_paired as all_paired
 from .paired import paired as paired
 from .results import PhotoResult as PhotoResult
 from .results import Summary as Summary
+from .results import mean_interval as mean_interval
 from .results import worst as worst
 from .sky_runs import learn_sky as learn_sky
 from .sweeping import sweep as sweep

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from skyline_viz.datasets.item import Item, listed
 from skyline_viz.datasets.predictions import Predictions
-from skyline_viz.evaluation.dealing import deal
+from skyline_viz.evaluation.dealing import deal, kept_together
 from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.folds import Folds
 from skyline_viz.evaluation.results import PhotoResult
@@ -87,8 +87,9 @@ def cross_validate(
 ) -> Evaluation:
     """Test each photo with what was learned from the photos of all other folds.
 
-    Photo ``i`` in the order of names is in fold ``i % folds``. Photos that resemble each other
-    belong into one fold, see `deal`. Methods that learn nothing are tested as they are, and so are
+    Photos are dealt one after the other in the order of their names. Those that are nearly the
+    same stay in one fold, see `kept_together`; whatever else resembles each other belongs into one
+    fold, too, see `deal`. Methods that learn nothing are tested as they are, and so are
     the lines of somebody else. What a family of methods learns, it learns once; a method that
     learns from sums, as our detector does, looks at each photo once, however many folds there are.
 
@@ -175,7 +176,10 @@ def assign(
         tasks = {one.name: photo_tasks([(item, one) for item in items], kept) for one in methods}
         nothing: dict[str, list[Failure]] = {one.name: [] for one in methods}
         return Assigned(tasks, {one.name: one for one in methods}, nothing, {}, seed)
-    dealt = deal(items, folds) if isinstance(folds, int) else dict(folds)
+    if isinstance(folds, int):
+        dealt = deal(items, folds, kept_together(items, workers=workers))
+    else:
+        dealt = dict(folds)
     by_name = tuple(sorted((one for one in items if one.name in dealt), key=lambda one: one.name))
     of = tuple(dealt[item.name] for item in by_name)
     if len(set(of)) < 2 or set(of) != set(range(max(of) + 1)):

@@ -18,7 +18,7 @@ from skyline_viz.arrays import F64
 from skyline_viz.evaluation.distribution import cumulative
 from skyline_viz.evaluation.results import PhotoResult
 from skyline_viz.files import replacing, write_text
-from skyline_viz.system.names import printable, shortened, shown_in_viewer
+from skyline_viz.system.names import shortened, shown_in_viewer, told_in_picture
 
 TOLERANCES = tuple(range(1, 21))
 """Tolerances in pixels."""
@@ -81,7 +81,7 @@ def draw_curves(
             axes.plot(TOLERANCES, shares, color=colour, label=label, linewidth=1.8)
     _dress(left, "photos with an $A_{err}$ of at most", "share")
     _dress(right, "columns with an error of at most", "")
-    figure.suptitle(shown_in_viewer(printable(title)), parse_math=False, x=0.01, ha="left", size=11)
+    figure.suptitle(told_in_picture(title), parse_math=False, x=0.01, ha="left", size=11)
     if len(results) > 1:
         right.legend(loc="lower right", frameon=False, fontsize=8)
     with replacing(path) as temporary:

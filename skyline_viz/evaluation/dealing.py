@@ -13,10 +13,11 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from skyline_viz.datasets.fingerprints import fingerprint, near_groups
 from skyline_viz.datasets.item import Item, listed
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.files import write_text
+from skyline_viz.running.batch import Failure, run
+from skyline_viz.system.fingerprints import fingerprint, near_groups
 
 GROUPINGS = ("folder", "near")
 """Ways to group photos by a name; any other text is a pattern for their names."""
@@ -83,8 +84,7 @@ def grouped(items: Iterable[Item], by: str) -> dict[str, str]:
     if by == "folder":
         return {item.name: _folder(item) for item in found}
     if by == "near":
-        groups = near_groups([fingerprint(item.photo()) for item in found])
-        return {item.name: f"{group}" for item, group in zip(found, groups, strict=True)}
+        return kept_together(found)
     try:
         pattern = re.compile(by)
     except re.error as error:
@@ -99,6 +99,48 @@ def grouped(items: Iterable[Item], by: str) -> dict[str, str]:
         name: f"={name}" if hit is None else hit[1 if pattern.groups and hit[1] else 0]
         for name, hit in hits.items()
     }
+
+
+def fingerprints(items: Iterable[Item], *, workers: int = 1) -> dict[str, str]:
+    """The fingerprint of each photo by its name; photos that cannot be read have none.
+
+    Args:
+        items: The photos.
+        workers: Number of processes, see `batch.run`.
+    """
+    found = listed(items)
+    outcomes = run(_fingerprint, found, workers=workers, title="comparing photos")
+    return {
+        item.name: one
+        for item, one in zip(found, outcomes, strict=True)
+        if not isinstance(one, Failure)
+    }
+
+
+def kept_together(
+    items: Iterable[Item], groups: Mapping[str, str] | None = None, *, workers: int = 1
+) -> dict[str, str]:
+    """The group of each photo by its name, where those that are nearly the same are in one.
+
+    Resized and compressed copies are nearly the same, and so are frames of a clip, by their names:
+    see `system.fingerprints`. Groups that have such photos in common are one group.
+
+    Args:
+        items: The photos.
+        groups: What stays together besides, see `grouped`.
+        workers: Number of processes, see `batch.run`.
+    """
+    found = listed(items)
+    prints = fingerprints(found, workers=workers)
+    near = dict(zip(prints, near_groups([*prints.values()]), strict=True))
+    joined = {item.name: item.name for item in found}
+    for ways in (near, groups or {}):
+        first: dict[object, str] = {}
+        for name, group in ways.items():
+            one, other = joined[first.setdefault(group, name)], joined[name]
+            if one != other:
+                joined = {each: one if of == other else of for each, of in joined.items()}
+    return joined
 
 
 def read_split(path: str | os.PathLike[str], items: Sequence[Item]) -> dict[str, int]:
@@ -155,6 +197,10 @@ def _in_order(fold: str) -> tuple[bool, int, str]:
     """Numbers by their size, words by their letters."""
     number = fold.isdecimal()
     return not number, int(fold) if number else 0, fold
+
+
+def _fingerprint(item: Item) -> str:
+    return fingerprint(item.photo(), item.name)
 
 
 def _folder(item: Item) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from skyline_viz.evaluation import terminal
 from skyline_viz.evaluation.results import PhotoResult, Summary
+from skyline_viz.evaluation.seen import by_name, notes
 from skyline_viz.evaluation.tasks import PhotoTask
 from skyline_viz.method import Method
 from skyline_viz.running.batch import Failure
@@ -46,13 +47,22 @@ class Evaluation:
         """Mean, median and other figures over all photos, for each method."""
         return {name: Summary.of(found) for name, found in self.results.items()}
 
+    @property
+    def notes(self) -> list[str]:
+        """Which photos were seen in training, in sentences: their errors are no test."""
+        return [
+            note
+            for name, found in self.results.items()
+            for note in notes(name, by_name(found), folds=bool(self.folds))
+        ]
+
     def __str__(self) -> str:
-        """A line for each method, and one for each failure."""
+        """A line for each method, and one for each failure and note."""
         table = terminal.drawn(terminal.methods_table(self.results), width=110)
-        return "\n".join([table, *map(str, self.failures)])
+        return "\n".join([table, *map(str, self.failures), *self.notes])
 
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
         """The same for a notebook."""
-        return terminal.methods_html(self.results, [str(one) for one in self.failures])
+        return terminal.methods_html(self.results, [*map(str, self.failures), *self.notes])

@@ -16,7 +16,7 @@ from skyline_viz.arrays import F64
 from skyline_viz.evaluation.distribution import TOP, shares
 from skyline_viz.evaluation.results import PhotoResult
 from skyline_viz.files import replacing
-from skyline_viz.system.names import printable, shortened, shown_in_viewer
+from skyline_viz.system.names import shortened, shown_in_viewer, told_in_picture
 
 _GREY = "#595959"
 _MAGENTA = "#FF2D95"
@@ -55,7 +55,7 @@ def write_histogram(
         _draw_several(axes, drawn)
         figure.legend(loc="outside right upper", frameon=False, fontsize=8)
     highest = max((float(one.max()) for one in drawn.values()), default=0.0)
-    axes.set_title(shown_in_viewer(printable(title)), parse_math=False, loc="left", fontsize=11)
+    axes.set_title(told_in_picture(title), parse_math=False, loc="left", fontsize=11)
     axes.set_xlabel("$A_{err}$ (pixels)")
     axes.set_ylabel("share of photos")
     axes.set_xticks([*range(TOP), TOP + 0.5], [*map(str, range(TOP)), f"{TOP} or more"])

@@ -18,7 +18,8 @@ from skyline_viz.detector import Detector
 from skyline_viz.evaluation.dealing import SPLIT, write_split
 from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.paired import all_paired
-from skyline_viz.evaluation.results import PhotoResult, Summary
+from skyline_viz.evaluation.results import PhotoResult, Summary, mean_interval
+from skyline_viz.evaluation.seen import in_titles
 from skyline_viz.files import replacing, write_text
 from skyline_viz.method import Method
 
@@ -49,6 +50,8 @@ def write_evaluation(
     from skyline_viz.evaluation.histogram import write_histogram  # noqa: PLC0415  # half a second
 
     folder = Path(folder)
+    seen = in_titles(found.results)
+    title = f"{title}\n{seen}" if seen else title
     write_summary(folder / "summary.json", found, about, groups)
     write_photos(folder / "photos.csv", found)
     write_histogram(folder / "histogram.png", found.results, title)
@@ -78,10 +81,16 @@ def write_summary(
         "folds": found.folds,
         "seed": found.seed,
         "summary": {name: _without_nan(one) for name, one in found.summaries.items()},
+        "mean_intervals": {
+            name: [*mean_interval(results, groups)]
+            for name, results in found.results.items()
+            if results
+        },
         "seen_in_training": {
-            name: [one.name for one in results if one.seen]
+            name: {one.name: one.seen for one in results if one.seen}
             for name, results in found.results.items()
         },
+        "notes": found.notes,
         "compared": [asdict(one) for one in all_paired(found.results, groups) if one.photos],
         "settings": {name: _settings(one) for name, one in found.methods.items()},
         "failed": [asdict(failure) for failure in found.failures],

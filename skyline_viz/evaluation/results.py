@@ -1,12 +1,13 @@
 """Results of an evaluation: photo by photo, and their summary."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 
 import numpy as np
 
 from skyline_viz.arrays import F32
+from skyline_viz.evaluation.intervals import Interval, resampled
 from skyline_viz.evaluation.metrics import (
     Errors,
     called_invisible,
@@ -51,8 +52,8 @@ class PhotoResult:
     """Share of the truth's visible columns that the detection calls not visible, in [0, 1]."""
 
     seen: str = ""
-    """How the photo was seen in training, ``exact`` or ``near``; empty where it was not, as far as
-    is known. With it the error is no test."""
+    """What has seen the photo in training, as ``training: exact``, see `seen_in_training`; empty
+    where nothing has, as far as is known. With it the error is no test."""
 
     errors: F32 | None = field(default=None, compare=False, repr=False)
     """``(W,)`` row minus true row of each column, in pixels, NaN where the truth is not visible;
@@ -111,6 +112,15 @@ class Summary:
     maximum: float
     """Largest A_err, in pixels."""
 
+    percentile_75: float
+    """Three quarters of the photos have an A_err of at most this, in pixels."""
+
+    percentile_90: float
+    """Nine in ten have."""
+
+    percentile_95: float
+    """Nineteen in twenty have."""
+
     under_4_px: float
     """Share of photos with an A_err below 4 pixels, in [0, 1]."""
 
@@ -143,6 +153,9 @@ class Summary:
             median=float(np.median(errors)),
             minimum=float(errors.min()),
             maximum=float(errors.max()),
+            percentile_75=float(np.percentile(errors, 75)),
+            percentile_90=float(np.percentile(errors, 90)),
+            percentile_95=float(np.percentile(errors, 95)),
             under_4_px=float((errors < 4).mean()),
             under_5_px=float((errors < 5).mean()),
             gross_misses=sum(result.gross_miss for result in results),
@@ -150,6 +163,19 @@ class Summary:
             seconds=float(np.median([result.seconds for result in results])),
             called_invisible=float(np.mean([result.called_invisible for result in results])),
         )
+
+
+def mean_interval(
+    results: Sequence[PhotoResult], groups: Mapping[str, Hashable] | None = None
+) -> Interval:
+    """The 95 % interval of the mean A_err, of photos that are drawn anew, see `resampled`.
+
+    Args:
+        results: At least one.
+        groups: The group of each photo by its name, see `grouped`: groups are drawn as a whole.
+    """
+    of = None if groups is None else [groups[one.name] for one in results]
+    return resampled([one.a_err for one in results], of)
 
 
 def worst(results: Iterable[PhotoResult], count: int = 5) -> list[PhotoResult]:

@@ -1,24 +1,105 @@
-"""Whether a photo was seen in training: then its error is no test."""
+"""Whether a photo was seen in training: then its error is no test.
+
+What learns keeps fingerprints of its photos, see `system.fingerprints`, so neither the name of a
+data set nor the place where it lies counts. A method without them tells nothing.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from skyline_viz.arrays import U8
-from skyline_viz.datasets.fingerprints import fingerprint, known_as
 from skyline_viz.detector import Detector
+from skyline_viz.evaluation.results import PhotoResult
 from skyline_viz.method import Method
+from skyline_viz.methods.finding.method_files import photos_seen
+from skyline_viz.system.fingerprints import fingerprint, known_as
+from skyline_viz.system.names import listed
+
+TRAINING, SKY = "training", "sky model"
+"""What has learned from a photo: the method itself, or the sky model of our detector."""
 
 
-def photos_learned(method: Method) -> tuple[str, ...]:
-    """Fingerprints of the photos that the filters of a detector have learned from, if it tells."""
-    return method.bank.seen if isinstance(method, Detector) else ()
+def seen_in_training(method: Method, photo: U8, name: str = "") -> str:
+    """What of a method has learned from a photo, and how the photo is known again.
 
-
-def seen_in_training(method: Method, photo: U8) -> str:
-    """Whether a method has learned from a photo ``(H, W, 3)``.
+    Args:
+        method: The method.
+        photo: ``(H, W, 3)`` uint8 RGB.
+        name: What the photo is called, which may tell of its clip.
 
     Returns:
-        ``exact``, ``near`` for a copy that was resized or compressed, or a frame with hardly a
-        change; an empty text where it has not, or does not tell.
+        ``training: exact``, ``sky model: near``, or both with a semicolon between; ``near`` is a
+        copy that was resized or compressed, or nearly the same picture, ``clip`` another frame of a
+        clip. Empty where nothing has learned from it, as far as is known.
     """
-    learned = photos_learned(method)
-    return known_as(fingerprint(photo), learned) if learned else ""
+    learned = {TRAINING: photos_seen(method)}
+    if isinstance(method, Detector) and method.config.sky_weight:
+        learned[SKY] = method.sky.seen
+    if not any(learned.values()):
+        return ""
+    own = fingerprint(photo, name)
+    found = {part: known_as(own, others) for part, others in learned.items()}
+    return "; ".join(f"{part}: {known}" for part, known in found.items() if known)
+
+
+def seen_by(part: str, seen: Mapping[str, str]) -> list[str]:
+    """Names of the photos that a part of a method, `TRAINING` or `SKY`, has seen.
+
+    Args:
+        part: The part.
+        seen: What `seen_in_training` says of each photo, by its name.
+    """
+    return [name for name, told in seen.items() if f"{part}:" in told]
+
+
+def notes(method: str, seen: Mapping[str, str], *, folds: bool = False) -> list[str]:
+    """What there is to say of photos that were seen in training, in sentences.
+
+    >>> notes("mine.npz", {"a": "training: exact", "b": "training: clip"})
+    ['mine.npz was trained on all 2 photos, so this is no test; see --folds.']
+    >>> notes("mine.npz", {"a": "", "b": "training: clip"})[0][:45]
+    'mine.npz has seen 1 of 2 photos in training, '
+
+    Args:
+        method: Name of the method.
+        seen: What `seen_in_training` says of each photo, by its name.
+        folds: Whether that is a cross-validation.
+    """
+    told = []
+    trained, sky = seen_by(TRAINING, seen), seen_by(SKY, seen)
+    if trained and len(trained) == len(seen):
+        hint = "" if folds else "; see --folds"
+        told.append(f"{method} was trained on {_all(seen)}, so this is no test{hint}.")
+    elif trained:
+        told.append(
+            f"{method} has seen {len(trained)} of {len(seen)} photos in training, near copies of "
+            f"them or frames of their clips, and their errors are no test: {listed(trained)}."
+        )
+    if sky:
+        which = f"{len(sky)} of {len(seen)} photos" if len(sky) < len(seen) else _all(seen)
+        told.append(
+            f"the sky model of {method} was trained on {which}, also where these are tested; "
+            f"sky_weight=0 does without."
+        )
+    return told
+
+
+def in_titles(results: Mapping[str, Sequence[PhotoResult]]) -> str:
+    """The same in a few words, for pictures; empty where no photo was seen."""
+    told = []
+    for part, words in ((TRAINING, "seen in training"), (SKY, "seen by the sky model")):
+        counts = [(len(seen_by(part, by_name(found))), len(found)) for found in results.values()]
+        most, photos = max(counts, default=(0, 0))
+        if most:
+            told.append(f"{most} of {photos} photos {words}")
+    return ", ".join(told)
+
+
+def by_name(results: Sequence[PhotoResult]) -> dict[str, str]:
+    """What was seen of each photo, by its name."""
+    return {one.name: one.seen for one in results}
+
+
+def _all(seen: Mapping[str, str]) -> str:
+    return f"all {len(seen)} photos" if len(seen) > 1 else "the photo"

@@ -101,7 +101,7 @@ def compare_photo(task: PhotoTask) -> PhotoResult:
     warm_up()
     found = task.method.detect(photo)
     result = PhotoResult.of(task.name, found.skyline, truth, len(photo), found.total_seconds)
-    return replace(result, seen=seen_in_training(task.method, photo))
+    return replace(result, seen=seen_in_training(task.method, photo, task.name))
 
 
 def compare_lines(

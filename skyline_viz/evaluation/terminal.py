@@ -9,7 +9,7 @@ from html import escape
 from rich.console import Console, RenderableType
 from rich.table import Table
 
-from skyline_viz.evaluation.intervals import wilson
+from skyline_viz.evaluation.intervals import Interval, wilson
 from skyline_viz.evaluation.results import PhotoResult, Summary
 from skyline_viz.system.names import cell, shortened
 
@@ -19,12 +19,12 @@ _HEADINGS = (
 _CELL = "padding:2px 10px;text-align:"
 
 
-def summary_table(summary: Summary) -> Table:
-    """The summary as a table of two columns."""
+def summary_table(summary: Summary, interval: Interval | None = None) -> Table:
+    """The summary as a table of two columns, with the interval of the mean where it is known."""
     table = Table(show_header=False)
     table.add_column("figure")
     table.add_column("value", justify="right")
-    for name, value in _figures(summary):
+    for name, value in _figures(summary, interval):
         table.add_row(name, value)
     return table
 
@@ -95,12 +95,14 @@ def _line(results: Sequence[PhotoResult]) -> list[str]:
     ]
 
 
-def _figures(summary: Summary) -> list[tuple[str, str]]:
+def _figures(summary: Summary, interval: Interval | None) -> list[tuple[str, str]]:
+    sure = f" (95 % interval: {interval[0]:.2f} to {interval[1]:.2f})" if interval else ""
     return [
         ("photos", f"{summary.photos}"),
-        ("A_err, mean", f"{summary.mean:.2f} px"),
+        ("A_err, mean", f"{summary.mean:.2f} px{sure}"),
         ("A_err, standard deviation", f"{summary.standard_deviation:.2f} px"),
         ("A_err, median", f"{summary.median:.2f} px"),
+        ("A_err, 75th, 90th and 95th percentile", _percentiles(summary)),
         ("A_err, minimum", f"{summary.minimum:.2f} px"),
         ("A_err, maximum", f"{summary.maximum:.2f} px"),
         ("photos under 4 px", _share(summary.under_4_px, summary.photos)),
@@ -110,6 +112,11 @@ def _figures(summary: Summary) -> list[tuple[str, str]]:
         ("visible columns called invisible", f"{summary.called_invisible:.2%}"),
         *_time(summary.seconds),
     ]
+
+
+def _percentiles(summary: Summary) -> str:
+    found = (summary.percentile_75, summary.percentile_90, summary.percentile_95)
+    return ", ".join(f"{one:.2f}" for one in found) + " px"
 
 
 def _time(seconds: float) -> list[tuple[str, str]]:

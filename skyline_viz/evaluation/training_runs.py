@@ -10,6 +10,7 @@ from skyline_viz.config import FILTER_SIZES, TrainingConfig
 from skyline_viz.datasets.item import Item
 from skyline_viz.filter_bank import FilterBank
 from skyline_viz.running.batch import Failure, run
+from skyline_viz.system.fingerprints import telling
 from skyline_viz.training import GramMatrices, gather_item, solve, together
 
 
@@ -110,4 +111,4 @@ def _gather_all(
     if total.images == 0:
         reason = f", and the first one failed: {failures[0]}" if failures else "."
         raise ValueError(f"training needs at least one photo with a true skyline{reason}")
-    return total, failures
+    return replace(total, seen=telling(total.seen)), failures

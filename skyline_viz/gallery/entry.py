@@ -57,6 +57,9 @@ class Entry:
     method: str = "default"
     """Name of the method."""
 
+    seen: str = ""
+    """What has seen the photo in training, see `evaluation.seen.seen_in_training`."""
+
     compared: str = ""
     """Name of the method beside the first; nothing without one."""
 

@@ -26,6 +26,7 @@ from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.diagnosis.diagnosing import diagnose
+from skyline_viz.evaluation.seen import seen_in_training
 from skyline_viz.gallery.better_worse import better_worse
 from skyline_viz.gallery.documents import read_list, write_list
 from skyline_viz.gallery.entry import Entry, read_entry
@@ -170,6 +171,7 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     shown = detection.visibility
     about = {
         "method": detection.method,
+        "seen": seen_in_training(looks.method, photo, task.name),
         "causes": causes,
         "titles": titles,
         "confidence": detection.confidence,

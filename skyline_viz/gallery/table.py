@@ -118,7 +118,8 @@ def served(
         cards = folder / "cards.rbl"
         compared = next((entry.compared for entry in entries), "")
         told = any(entry.shows for entry in entries)
-        _cards(parts.tables, truth, cause, compared, told).save(_TABLE, cards)
+        seen = any(entry.seen for entry in entries)
+        _cards(parts.tables, truth, cause, compared, told, seen).save(_TABLE, cards)
         table.register_blueprint(cards.as_uri())
         address = f"{server.url()}/entry/{table.id}"
         yield ServedGallery(address, gallery, entries, flags, photos, table, client)
@@ -191,6 +192,7 @@ def _schema(index: str) -> pa.Schema:
             pa.field("confidence", pa.float32()),
             pa.field("shows", pa.utf8()),
             pa.field("method", pa.utf8()),
+            pa.field("seen", pa.utf8()),
             pa.field("wrong", pa.utf8()),
             pa.field("cause", pa.utf8()),
             pa.field("causes", pa.utf8()),
@@ -219,6 +221,7 @@ def _columns(
         "parts_at": [shown_in_viewer(one.parts_at) or "nowhere" for one in entries],
         "turned_by": [shown_in_viewer(one.turned_by) or "-" for one in entries],
         "method": [shown_in_viewer(shortened(one.method)) for one in entries],
+        "seen": [one.seen or "no" for one in entries],
         "margin": [round(entry.verdict.margin, 2) for entry in entries],
         "confidence": [_rounded(one.confidence) for one in entries],
         "shows": [one.shows for one in entries],
@@ -254,6 +257,7 @@ def _cards(
     cause: str,
     compared: str,
     told: bool,
+    seen: bool,
 ) -> TableBlueprint:
     lines = (entities.PATH, entities.TRUTH, *([entities.ALTERNATIVE] if compared else []))
     thumbnail = rrb.Spatial2DView(
@@ -281,6 +285,7 @@ def _cards(
         tables.Column("margin", name="margin"),
         *(shown if told else []),
         tables.Column("method", name="by"),
+        *([tables.Column("seen", name="seen in training")] if seen else []),
     ]
     last = [
         tables.Column("reviewed", name="reviewed", column_type=rr.components.Flag),

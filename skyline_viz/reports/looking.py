@@ -7,12 +7,13 @@ detection takes little beside what a diagnosis tries.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from skyline_viz.datasets.item import Item
 from skyline_viz.diagnosis.data_set import diagnose_detection
 from skyline_viz.diagnosis.record import Diagnosed
+from skyline_viz.evaluation.seen import seen_in_training
 from skyline_viz.evaluation.tasks import PhotoTask
 from skyline_viz.method import Method
 from skyline_viz.reports.photo_report import PhotoReport, photo_report
@@ -68,4 +69,5 @@ def _look(task: _Task, *, photos: int, remedies: bool) -> PhotoReport:
     diagnosed = task.diagnosed
     if diagnosed is None and truth is not None and truth.visible.any():
         diagnosed = diagnose_detection(task.name, detection, truth, remedies=remedies)
-    return photo_report(task.name, detection, truth, diagnosed, photos=photos)
+    report = photo_report(task.name, detection, truth, diagnosed, photos=photos)
+    return replace(report, seen=seen_in_training(task.method, photo, task.name))

@@ -86,6 +86,9 @@ class PhotoReport:
     mended: str
     """The line with the best remedy; empty without one."""
 
+    seen: str = ""
+    """What has seen the photo in training, see `evaluation.seen.seen_in_training`."""
+
     @property
     def a_err(self) -> float | None:
         """Mean error in pixels; None without a truth."""

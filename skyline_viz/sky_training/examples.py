@@ -12,6 +12,7 @@ from skyline_viz.arrays import F32, U8, check_photo
 from skyline_viz.datasets.item import Item
 from skyline_viz.sky_model import SkyModel
 from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.system.fingerprints import fingerprint
 
 ROWS, COLUMNS = 384, 256
 """Size that examples are squeezed to: twice the input of the small network, to crop from."""
@@ -33,8 +34,11 @@ class Example:
     source: str
     """Data set that it is from."""
 
+    seen: str = ""
+    """Fingerprint of the photo as it was; empty where it is not known."""
+
     @classmethod
-    def of(cls, photo: U8, truth: Skyline, source: str) -> Example:
+    def of(cls, photo: U8, truth: Skyline, source: str, name: str = "") -> Example:
         """The example of a photo ``(H, W, 3)`` uint8 RGB and its true skyline.
 
         Columns in which the line is not visible take the line between their neighbours.
@@ -51,7 +55,8 @@ class Example:
             raise SkylineError("no column of the truth is visible")
         rows = np.interp(np.arange(width), columns, truth.rows[columns])
         share = np.clip(rows[None, :] - np.arange(height, dtype=np.float32)[:, None], 0, 1)
-        return cls(squeezed(photo), squeezed((share * 255).astype(np.uint8)), source)
+        sky = squeezed((share * 255).astype(np.uint8))
+        return cls(squeezed(photo), sky, source, fingerprint(photo, name))
 
     @cached_property
     def line(self) -> F32 | None:
@@ -76,11 +81,13 @@ def example_of(item: Item, source: str, teacher: SkyModel | None = None) -> Exam
     """
     truth = item.truth()
     if truth is not None:
-        return Example.of(item.photo(), truth, source) if truth.visible.any() else None
-    return taught(item.photo(), teacher, source) if teacher is not None else None
+        if not truth.visible.any():
+            return None
+        return Example.of(item.photo(), truth, source, item.name)
+    return taught(item.photo(), teacher, source, item.name) if teacher is not None else None
 
 
-def taught(photo: U8, teacher: SkyModel, source: str) -> Example:
+def taught(photo: U8, teacher: SkyModel, source: str, name: str = "") -> Example:
     """The example of a photo ``(H, W, 3)`` of which a teacher says what is sky.
 
     It sees the photo mirrored as well, and the mean of both is taken.
@@ -88,7 +95,7 @@ def taught(photo: U8, teacher: SkyModel, source: str) -> Example:
     mirrored = np.ascontiguousarray(photo[:, ::-1])
     sky = (teacher.sky(photo) + teacher.sky(mirrored)[:, ::-1]) / 2
     levels = np.rint(sky * 255).astype(np.uint8)
-    return Example(squeezed(photo), squeezed(levels), source)
+    return Example(squeezed(photo), squeezed(levels), source, fingerprint(photo, name))
 
 
 def squeezed(image: U8) -> U8:

@@ -6,11 +6,12 @@ import json
 from collections.abc import Iterable
 
 from skyline_viz._version import __version__
-from skyline_viz.sky_model import TRAINED
+from skyline_viz.sky_model import SEEN, TRAINED
 from skyline_viz.sky_training.examples import Example
 from skyline_viz.sky_training.exporting import exported
 from skyline_viz.sky_training.fitting import Progress, fit
 from skyline_viz.sky_training.sizes import SIZES, STEPS, SizeName
+from skyline_viz.system.fingerprints import packed, telling
 
 
 def learn(
@@ -41,4 +42,6 @@ def learn(
         sources[one.source] = sources.get(one.source, 0) + 1
     net = fit(known, SIZES[size], steps=steps, seed=seed, progress=progress)
     about = {"size": size, "steps": steps, "seed": seed, "skyline-viz": __version__}
-    return exported(net, {TRAINED: json.dumps({"photos": sources, **about})})
+    trained = json.dumps({"photos": sources, **about})
+    seen = packed(telling([one.seen for one in known if one.seen]))
+    return exported(net, {TRAINED: trained, SEEN: seen})

@@ -13,6 +13,8 @@ import unicodedata
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from rich.text import Text
 
 _HARMFUL = ("Cc", "Cs", "Zl", "Zp")
@@ -130,3 +132,18 @@ def _escaped(character: str) -> str:
     if 0xDC80 <= code <= 0xDCFF:  # a byte that was no text
         return f"\\x{code - 0xDC00:02x}"
     return character.encode("unicode_escape").decode("ascii")
+
+
+def listed(names: Sequence[str], most: int = 8) -> str:
+    """Names in a sentence.
+
+    >>> listed(["a", "b", "c"], most=2)
+    'a, b and 1 more'
+    """
+    more = len(names) - most
+    return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
+
+
+def told_in_picture(title: str) -> str:
+    """A title of one or more lines, without what a picture cannot show."""
+    return "\n".join(shown_in_viewer(printable(line)) for line in title.splitlines())

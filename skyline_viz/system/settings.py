@@ -178,7 +178,7 @@ class Configured:
     PRESETS: ClassVar[Presets] = {}
     """Names under which it is known, and what each sets differently from the defaults."""
 
-    UNSET: ClassVar[frozenset[str]] = frozenset({"label", "learned_from"})
+    UNSET: ClassVar[frozenset[str]] = frozenset({"label", "learned_from", "seen"})
     """Fields that are no settings."""
 
     label: str = field(default="", kw_only=True)
@@ -186,6 +186,9 @@ class Configured:
 
     learned_from: str = field(default="", kw_only=True, compare=False, repr=False)
     """Name of the data set that it learned from, as its file says; empty if that is not known."""
+
+    seen: tuple[str, ...] = field(default=(), kw_only=True, compare=False, repr=False)
+    """Fingerprints of the photos that it learned from, as its file says."""
 
     @property
     def name(self) -> str:

@@ -2,10 +2,13 @@
 
 import csv
 import json
+import shutil
 
 import numpy as np
 
 import skyline_viz as sv
+from annotate.formats import export_labels
+from testing.exports import label
 from testing.programs.commands import files
 
 
@@ -30,6 +33,28 @@ def test_our_own_masks_have_the_errors_of_the_run_that_made_them(say, hills, tmp
         again = errors(tmp_path / "again")
         ours = errors(tmp_path / "run")
         assert again == {(kind.name, name): error for (_, name), error in ours.items()}
+
+
+def test_exports_of_the_annotator_have_the_errors_of_the_run_that_made_them(say, hills, tmp_path):
+    assert say("evaluate", hills, "--out", "run")[0] == 0
+    assert say("detect", hills, "--out", "found")[0] == 0
+    photos = tmp_path / "photos"
+    shutil.copytree(hills / "images", photos)
+    labels = [
+        label(photos, file.name, line.rows, width=line.width, height=len(sv.read_photo(file)))
+        for file in sorted(photos.iterdir())
+        for line in [sv.Skyline.read_csv(tmp_path / "found" / f"{file.stem}.csv")]
+    ]
+    ours = errors(tmp_path / "run")
+    for kind in ("coco", "json", "csv", "mask"):
+        export_labels(labels, photos, tmp_path / kind, kind)
+        status, _, err = say("evaluate", hills, "--predictions", kind, "--out", "again")
+        assert (status, err) == (0, ""), kind
+        again = errors(tmp_path / "again")
+        assert again == {(kind, name): error for (_, name), error in ours.items()}
+    (tmp_path / "coco" / "annotations-rle.json").unlink()
+    assert say("evaluate", hills, "--predictions", "coco", "--out", "again")[0] == 0
+    assert [*errors(tmp_path / "again").values()] == [*ours.values()]
 
 
 def test_missing_and_extra_lines_are_counted_and_named(say, hills, tmp_path):
@@ -111,8 +136,26 @@ def test_photos_seen_in_training_are_known_under_any_name(say, hills, tmp_path):
     assert say("train", hills, "--out", "b.npz")[0] == 0
     (tmp_path / "elsewhere").symlink_to(hills)
     status, _, err = say("evaluate", "elsewhere", "--bank", "b.npz", "--out", "run")
-    assert (status, "b.npz was trained on elsewhere, so this is no test" in err) == (0, True)
+    assert (status, "b.npz was trained on all 4 photos, so this is no test" in err) == (0, True)
     with (tmp_path / "run" / "photos.csv").open(newline="") as file:
-        assert [line["seen"] for line in csv.DictReader(file)] == ["exact"] * 4
+        assert [line["seen"] for line in csv.DictReader(file)] == ["training: exact"] * 4
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
-    assert summary["seen_in_training"]["b.npz"] == ["p0", "p1", "p2", "p3"]
+    assert {*summary["seen_in_training"]["b.npz"]} == {"p0", "p1", "p2", "p3"}
+    assert summary["notes"] == [
+        "b.npz was trained on all 4 photos, so this is no test; see --folds."
+    ]
+    for words in (
+        ("diagnose", "elsewhere", "--no-remedies"),
+        ("inspect", hills / "images" / "p0.png", "--truth", hills / "masks" / "p0.csv"),
+        ("inspect", "elsewhere", "--report", "r.html"),
+    ):
+        headless = ("--headless",) if "--truth" in words else ()
+        _, _, err = say(*words, "--bank", "b.npz", *headless)
+        assert "so this is no test" in err, words
+    assert "no test: seen in training" in (tmp_path / "r.html").read_text()
+
+
+def test_a_folder_of_the_same_name_is_no_training(say, hills, tmp_path):
+    (tmp_path / "mountains").symlink_to(hills)
+    status, _, err = say("evaluate", "mountains")
+    assert (status, err) == (0, "")

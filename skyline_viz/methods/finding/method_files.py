@@ -24,6 +24,7 @@ from skyline_viz.methods.finding.plugins import PluggedIn, as_method, plugged_fr
 from skyline_viz.methods.names import HOMES
 from skyline_viz.methods.sky_network import SkyNetwork
 from skyline_viz.system import headed_npz
+from skyline_viz.system.fingerprints import packed, unpacked
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError, opened
 from skyline_viz.system.settings import SettingError, plain_number
 
@@ -46,6 +47,9 @@ class Trained:
 
     seed: int = 0
     """Seed of what was drawn."""
+
+    seen: tuple[str, ...] = ()
+    """Fingerprints of the photos, see `system.fingerprints`."""
 
 
 def make_method(name: str) -> Configurable:
@@ -90,13 +94,14 @@ def header_of(method: Configurable, trained: Trained | None = None) -> dict[str,
         raise MethodError(str(error)) from error
     if isinstance(method, Detector):
         return method.header()
-    trained = trained or Trained(method.learned_from)
+    trained = trained or Trained(method.learned_from, seen=photos_seen(method))
+    told = {**asdict(trained), "seen": packed(trained.seen)}
     return {
         "method": _key(method),
         "label": method.label,
         "settings": {name: _plain(value) for name, value in method.settings().items()},
         "digest": method_digest(method),
-        "trained": {name: plain_number(one) for name, one in asdict(trained).items()},
+        "trained": {name: plain_number(one) for name, one in told.items()},
     }
 
 
@@ -171,7 +176,9 @@ def _loaded(path: str, file: HeadedNpz, hint: str) -> Configurable:
             made = plugged_from_file(path, key, settings, file, hint)
         else:
             made = _with_model(make_method(key), file).with_settings(settings)
-        found: Configurable = replace(made, label=label, learned_from=_dataset(header))
+        found: Configurable = replace(
+            made, label=label, learned_from=_dataset(header), seen=_seen(header)
+        )
         return found
     except (NpzError, MethodError):
         raise
@@ -184,6 +191,20 @@ def _dataset(header: Mapping[str, Any]) -> str:
     trained = header.get("trained")
     name = trained.get("dataset") if isinstance(trained, dict) else ""
     return name if isinstance(name, str) else ""
+
+
+def _seen(header: Mapping[str, Any]) -> tuple[str, ...]:
+    """Fingerprints of the photos that a method was trained on, as far as its file tells."""
+    trained = header.get("trained")
+    try:
+        return unpacked(trained.get("seen", "")) if isinstance(trained, dict) else ()
+    except ValueError:
+        return ()
+
+
+def photos_seen(method: Method) -> tuple[str, ...]:
+    """Fingerprints of the photos that a method has learned from, as far as it tells."""
+    return method.bank.seen if isinstance(method, Detector) else getattr(method, "seen", ())
 
 
 def _with_model(made: Configurable, file: HeadedNpz) -> Configurable:

@@ -50,6 +50,9 @@ class PluggedIn:
     learned_from: str = field(default="", compare=False)
     """See `Configurable.learned_from`."""
 
+    seen: tuple[str, ...] = field(default=(), compare=False, repr=False)
+    """See `Configured.seen`."""
+
     unsaid: str = ""
     """What tells it from others of its class where its settings cannot be told."""
 
@@ -204,7 +207,7 @@ class PluggedLearner(PluggedIn):
             raise failed_in(self.place, error) from error
         if not callable(getattr(fitted, "detect", None)):
             raise MethodError(f"fit of {self.place} returns no trained method.")
-        return replace(self._with(fitted, self.given), learned_from="")
+        return replace(self._with(fitted, self.given), learned_from="", seen=())
 
     def sharing(self, other: Self) -> Self:
         """See `Learner.sharing`."""
@@ -212,7 +215,7 @@ class PluggedLearner(PluggedIn):
             shared = replace(self, inner=other.inner, kept_back=other.kept_back)
         else:
             shared = self._with(self._remade(self.given, other.arrays()), self.given)
-        return replace(shared, learned_from=other.learned_from)
+        return replace(shared, learned_from=other.learned_from, seen=other.seen)
 
 
 def as_method(method: object) -> Configurable:

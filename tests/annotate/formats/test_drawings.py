@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from annotate.formats.common import FormatError
 from annotate.formats.drawings import (
     Shape,
     Wanted,
@@ -13,6 +12,7 @@ from annotate.formats.drawings import (
     size_of_drawing,
     text_of,
 )
+from skyline_viz.datasets.outlines import FormatError
 
 
 def kinds(wanted):

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from annotate.formats.common import FormatError, Imported
+from annotate.formats.common import Imported
 from annotate.formats.importing import Found, Imports, Task
 from annotate.formats.photo_names import PhotoNames
+from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.skyline import Skyline, SkylineError
 from testing.exports import WIDTH, put
 

@@ -3,9 +3,9 @@
 import pytest
 
 from annotate.formats import sources
-from annotate.formats.common import FormatError
 from annotate.formats.importing import Found
 from annotate.formats.sources import drawings_in, files_below, format_of
+from skyline_viz.datasets.outlines import FormatError
 from testing.label_documents import FLAT
 from testing.label_files import coco, labelme, line, shape, written
 

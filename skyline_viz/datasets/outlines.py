@@ -15,12 +15,14 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from annotate.formats.common import FormatError
-
 Points: TypeAlias = npt.NDArray[np.float64]
 """Corners ``(n, 2)``, each x rightwards and y downwards from the photo's corner, in pixels."""
 
 _MOST_CROSSINGS = 50_000_000
+
+
+class FormatError(ValueError):
+    """A file or what it draws is not of its format; the message is one sentence that says why."""
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ import cv2
 import numpy as np
 import pytest
 
-from skyline_viz.datasets.fingerprints import fingerprint, is_fingerprint, known_as, near_groups
 from skyline_viz.rendering import render
+from skyline_viz.system.fingerprints import fingerprint, is_fingerprint, known_as, near_groups
 
 
 @pytest.fixture(scope="module")

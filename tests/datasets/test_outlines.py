@@ -5,7 +5,7 @@ import pytest
 from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
-from annotate.formats.outlines import line_rows, polygon_mask
+from skyline_viz.datasets.outlines import line_rows, polygon_mask
 from testing import label_files as made
 from testing.examples import examples
 from testing.imports import imported, said_about
