@@ -1,7 +1,7 @@
 """The command ``skyline-annotate``: which commands there are."""
 
 from collections.abc import Sequence
-from typing import Annotated, Any, Union
+from typing import Any
 
 import tyro
 
@@ -38,7 +38,7 @@ def parse(arguments: list[str]) -> Command:
     """
     missing: Any = tyro.MISSING
     words = spelt_out(arguments, masks=("import",))
-    commands = {
+    commands: dict[str, Command] = {
         "open": Open(missing, methods=described(words)),
         "export": Export(missing),
         "import": Import(missing, missing),
@@ -47,8 +47,4 @@ def parse(arguments: list[str]) -> Command:
         "backup": Backup(missing),
         "repair": Repair(missing),
     }
-    kinds = tuple(
-        Annotated[type(default), tyro.conf.subcommand(name, default=default)]
-        for name, default in commands.items()
-    )
-    return parsed(PROGRAM, _ABOUT, Union[kinds], words)  # noqa: UP007  # known at run time
+    return parsed(PROGRAM, _ABOUT, commands, words)

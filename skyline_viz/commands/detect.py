@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from skyline_viz.command_line.inputs import NO_PHOTOS, collect, output_folder
-from skyline_viz.command_line.messages import UsageError, counted, status_after, tell
+from skyline_viz.command_line.messages import UsageError, counted, status_after, tell, tell_done
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.run_record import RECORD, Beginning
 from skyline_viz.command_line.settings import Folder, Switch
@@ -36,12 +36,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Detect:
-    """Find the skylines of photos and write them as CSV, a line for each column."""
+    """Find the skylines of photos and write them as CSV, a line for each column.
+
+    Examples:
+        skyline-viz detect photos --out skylines
+        skyline-viz detect photos/*.jpg --overlay --mask
+        skyline-viz detect photos --config skylines/run.json --out again
+    """
 
     photos: Annotated[
         tuple[Path, ...],
         tyro.conf.Positional,
-        tyro.conf.arg(metavar="PHOTO [PHOTO ...]", help_behavior_hint="(required)"),
+        tyro.conf.arg(metavar="PHOTO"),
     ]
     """Photos, folders of photos, or data sets."""
 
@@ -86,7 +92,7 @@ class Detect:
                 rows.append(_failed(photo, outcome))
                 continue
             rows.append(outcome.row)
-            tell(outcome.line(wide))
+            tell_done(outcome.line(wide))
             if outcome.doubt:
                 tell(f"{shortened(photo.name)}: {outcome.doubt}")
         write_table(self.out / TABLE, rows)
@@ -166,8 +172,10 @@ def _sum_up(out: Path, rows: Sequence[PhotoRow], wide: int) -> None:
     good = [row for row in rows if not row.error]
     if len(good) < 2:
         return
-    tell(f"{counted(len(good), 'skyline')} in {out}; {TABLE} says how sure each is, {RECORD} how")
-    tell("Look at these first:")
+    tell_done(
+        f"{counted(len(good), 'skyline')} in {out}; {TABLE} says how sure each is, {RECORD} how"
+    )
+    tell_done("Look at these first:")
     for row in look_first(good):
         where = f", least in columns {row.stretches}" if row.stretches else ""
-        tell(f"  {padded(shortened(row.name), wide)}  {sure(row.confidence or 0.0)}{where}")
+        tell_done(f"  {padded(shortened(row.name), wide)}  {sure(row.confidence or 0.0)}{where}")

@@ -6,7 +6,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from skyline_viz import diagnosis, evaluation
-from skyline_viz.command_line.messages import UsageError, counted, say, status_after, tell
+from skyline_viz.command_line.messages import (
+    UsageError,
+    counted,
+    say,
+    status_after,
+    tell,
+    tell_done,
+)
 from skyline_viz.command_line.on_truth import OnTruth
 from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder, Switch
@@ -21,7 +28,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Diagnose(OnTruth):
-    """Say why skylines went wrong, and prove it by changing one thing and searching again."""
+    """Say why skylines went wrong, and prove it by changing one thing and searching again.
+
+    Examples:
+        skyline-viz diagnose hills --out causes
+        skyline-viz diagnose hills --photo tor
+        skyline-viz diagnose hills --report causes.html --no-remedies
+    """
 
     photo: str = ""
     """Name of one photo, to print its diagnosis in full; --out gets NAME.json and NAME.md then."""
@@ -83,7 +96,7 @@ class Diagnose(OnTruth):
                 tell(*diagnosis.in_full(one).splitlines())
                 if self.out:
                     document, text = diagnosis.write_photo(self.out, name, one)
-                    tell(f"{document.name} and {text.name} in {document.parent}")
+                    tell_done(f"{document.name} and {text.name} in {document.parent}")
         else:
             self._tell_all(name, found)
         if not found:
@@ -99,4 +112,4 @@ class Diagnose(OnTruth):
             diagnosis.write_csv(self.out / "segments.csv", found)
             diagnosis.write_json(self.out / "diagnosis.json", name, found)
             diagnosis.write_picture(self.out / "causes.png", name, found)
-            tell(f"segments.csv, diagnosis.json and causes.png in {self.out}")
+            tell_done(f"segments.csv, diagnosis.json and causes.png in {self.out}")

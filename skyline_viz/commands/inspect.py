@@ -22,6 +22,7 @@ from skyline_viz.command_line.messages import (
     say,
     status_after,
     tell,
+    tell_done,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.reporting import ReportFile, check_report
@@ -61,12 +62,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Inspect:
-    """Look at every stage of photos in the viewer: edges, tensor, scores, cost, path."""
+    """Look at every stage of photos in the viewer: edges, tensor, scores, cost, path.
+
+    Examples:
+        skyline-viz inspect photo.jpg
+        skyline-viz inspect photo.jpg --truth mask.png --method default paper
+        skyline-viz inspect photo.jpg --report photo.html
+    """
 
     photos: Annotated[
         tuple[Path, ...],
         tyro.conf.Positional,
-        tyro.conf.arg(metavar="PHOTO [PHOTO ...]", help_behavior_hint="(required)"),
+        tyro.conf.arg(metavar="PHOTO"),
     ]
     """Photos, folders of photos, or data sets; several share one recording, a photo a step."""
 
@@ -256,7 +263,7 @@ class Inspect:
                             contents = contents or logged
                         except of_a_photo as problem:
                             failures.append(Failure(one.name, sentence(problem)))
-                        bar.advance()
+                        bar.advance(one.name)
                     self._lay_out(recording, contents)
                     files.append(file)
         return [file for file in files if file.exists()]
@@ -365,7 +372,7 @@ class Inspect:
         from skyline_viz.viewer.program import process as viewer
 
         if self.headless:
-            tell(f"{counted(len(files), 'recording')} made.")
+            tell_done(f"{counted(len(files), 'recording')} made.")
         elif self.save:
             tell(f"Look at it with: rerun {self.save}")
         elif self.screenshot:
@@ -373,7 +380,7 @@ class Inspect:
             for file in files:
                 several = f"-{file.stem}" if len(files) > 1 else ""
                 for picture in viewer.save_pictures(file, self.screenshot, several, window):
-                    tell(str(picture))
+                    tell_done(str(picture))
         elif self.connect:
             viewer.send(files, self.connect)
         elif self.serve:

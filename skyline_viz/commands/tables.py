@@ -19,6 +19,7 @@ from skyline_viz.command_line.messages import (
     say,
     status_after,
     tell,
+    tell_done,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import Folder, Switch
@@ -37,12 +38,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Tables:
-    """Measure the paper's Tables I to VI on data sets, with the published rows beside them."""
+    """Measure the paper's Tables I to VI on data sets, with the published rows beside them.
+
+    Examples:
+        skyline-viz tables hills
+        skyline-viz tables hills dunes --out tables --no-studies
+        skyline-viz tables hills --method default edges --folds 5
+    """
 
     datasets: Annotated[
         tuple[Path, ...],
         tyro.conf.Positional,
-        tyro.conf.arg(metavar="DATASET [DATASET ...]", help_behavior_hint="(required)"),
+        tyro.conf.arg(metavar="DATASET"),
     ]
     """Folders of data sets with truths, in a published layout or plain."""
 
@@ -146,4 +153,4 @@ class Tables:
         write_text(self.out / "tables.md", page)
         write_text(self.out / "tables.tex", evaluation.latex(tables))
         tell(*page.splitlines())
-        tell(f"tables.md, tables.tex, {listed(evaluation.FILES)} in {self.out}")
+        tell_done(f"tables.md, tables.tex, {listed(evaluation.FILES)} in {self.out}")

@@ -10,7 +10,14 @@ import tyro
 
 from skyline_viz import evaluation
 from skyline_viz.command_line.inputs import output_folder, with_truth
-from skyline_viz.command_line.messages import GOOD, UsageError, counted, status_after, tell
+from skyline_viz.command_line.messages import (
+    GOOD,
+    UsageError,
+    counted,
+    status_after,
+    tell,
+    tell_done,
+)
 from skyline_viz.command_line.settings import Preset, RunFile
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
@@ -29,12 +36,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Train:
-    """Learn our filters, or another method, from photos with truth."""
+    """Learn our filters, or another method, from photos with truth.
+
+    Examples:
+        skyline-viz train hills --out bank.npz
+        skyline-viz train hills dunes --out bank.npz --training.filter-size 9
+        skyline-viz train hills --method svm-dcsi --out svm.npz
+    """
 
     datasets: Annotated[
         tuple[Path, ...],
         tyro.conf.Positional,
-        tyro.conf.arg(metavar="DATASET [DATASET ...]", help_behavior_hint="(required)"),
+        tyro.conf.arg(metavar="DATASET"),
     ]
     """Folders of data sets with truths, in a published layout or plain; each counts alike,
     whatever the number of its photos."""
@@ -147,7 +160,7 @@ class Train:
         tell(f"photos used  {used} of {photos}")
         if nothing := sum(map(len, sets.values())) - len(failures) - used:
             tell(f"left out     {counted(nothing, 'photo')} whose truth shows no line")
-        tell(f"written      {self.out}, {self.out.stat().st_size:,} bytes")
+        tell_done(f"written      {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
 
     def _train_ours(
@@ -178,7 +191,7 @@ class Train:
             f"learned with  reach {training.reach}, smoothness {training.smoothness:g}, "
             f"pooling {training.pooling:g}"
         )
-        tell(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
+        tell_done(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
 
     def _pretrained(self, method: Configurable) -> Configurable:
@@ -204,5 +217,5 @@ class Train:
         fitted = method.fit(items, self.seed)
         save_method(fitted, self.out, Trained(dataset, len(items), self.seed))
         tell(f"{method.name}, trained on {counted(len(items), 'photo')} of {dataset}")
-        tell(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
+        tell_done(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
         return GOOD
