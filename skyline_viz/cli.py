@@ -49,11 +49,11 @@ def parse(arguments: list[str]) -> Command:
     training = methods.config
     if words[:1] == ["train"]:
         training = trained_from(words, methods)
-    return parsed("skyline-viz", _ABOUT, _commands(methods, TrainingConfig.of(training)), words)
+    return parsed("skyline-viz", _ABOUT, commands(methods, TrainingConfig.of(training)), words)
 
 
-def _commands(methods: Methods, training: TrainingConfig) -> dict[str, Command]:
-    """All commands by name, with what was described as defaults."""
+def commands(methods: Methods, training: TrainingConfig) -> dict[str, Command]:
+    """All commands by name, with what a command line describes as defaults."""
     missing: Any = tyro.MISSING
     return {
         "detect": Detect(missing, methods=methods),

@@ -99,7 +99,7 @@ class Import:
     Examples:
         skyline-annotate import photos skylines
         skyline-annotate import photos masks --format mask --sky 255
-        skyline-annotate import photos coco/skylines.json --annotator ada --status accepted
+        skyline-annotate import photos coco/skylines.json --status accepted
     """
 
     folder: PhotoFolder

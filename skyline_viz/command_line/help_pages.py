@@ -67,7 +67,8 @@ def command_page(called: str, command: object, *, everything: bool) -> str:
     """
     options = options_of(command)
     stand_alone = [_value(one) for one in options if one.positional]
-    lines = [f"usage: {' '.join([called, *stand_alone])} [OPTIONS]", "", _summary(command)]
+    lines = [f"usage: {' '.join([called, *stand_alone])} [OPTIONS]", ""]
+    lines += _wrapped([_summary(command)], "")
     settings = [one for one in options if one.is_setting]
     offered = [*options, *(_HELP if settings else _HELP[:-1])]
     for title in _GROUPS:

@@ -144,7 +144,8 @@ def _run(program: str, parse: Callable[[list[str]], Command], arguments: list[st
         with loading():
             command = parse(arguments)
     except SystemExit as leaving:  # help, or a command line that makes no sense
-        return leaving.code if isinstance(leaving.code, int) else USAGE
+        code = GOOD if leaving.code is None else leaving.code
+        return code if isinstance(code, int) else USAGE
     if (megapixels := getattr(command, "max_megapixels", None)) is not None:
         limit(megapixels)
     return command.run()

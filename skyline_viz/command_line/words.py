@@ -79,8 +79,8 @@ def _read(called: str, known: Mapping[str, Option], words: Sequence[str]) -> _Re
         flag = word.replace("_", "-")
         option = known.get(flag)
         if option is None:
-            near = nearest(flag.lstrip("-"), [one[2:] for one in (*known, *WORDS, "--help")])
-            better = f"did you mean --{near}?" if near else f"see {called} --help-all."
+            near = _meant(flag, [*known, *WORDS, "--help"])
+            better = f"did you mean {near}?" if near else f"see {called} --help-all."
             raise UsageError(f"{called} has no option {word}; {better}")
         found.named.add(flag)
         if option.kind is bool:
@@ -98,6 +98,15 @@ def _read(called: str, known: Mapping[str, Option], words: Sequence[str]) -> _Re
         for one in values:
             _check(flag, option, one)
     return found
+
+
+def _meant(flag: str, known: Sequence[str]) -> str:
+    """What an unknown option was to be, whether all of its name was said or its end; or nothing."""
+    ends = {one.removeprefix("--").rpartition(".")[2]: one for one in known}
+    whole = {one.removeprefix("--"): one for one in known}
+    names = {**ends, **whole}
+    near = nearest(flag.lstrip("-"), names)
+    return names[near] if near else ""
 
 
 def _is_option(word: str) -> bool:

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
-from skyline_viz import evaluation
-from skyline_viz.command_line.inputs import NO_PHOTOS, collect, with_truth
+from skyline_viz.command_line.inputs import NO_PHOTOS, collect
 from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
@@ -54,7 +53,6 @@ if TYPE_CHECKING:
 
     from skyline_viz.datasets.layouts import DatasetItem
     from skyline_viz.datasets.named_item import NamedItem
-    from skyline_viz.detector import Detector
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Method
     from skyline_viz.viewer.contents import Contents, Fidelity
@@ -214,7 +212,9 @@ class Inspect:
         if self.sweep and not isinstance(first, Detector):
             raise UsageError(f"--sweep changes the settings of our detector, not {first.name}.")
         if self.sweep_training and isinstance(first, Detector):
-            sizes = self._train_sizes(inputs[0], first, failures)
+            dataset = self.truths.open(self.sweep_training)
+            sizes, failed = inspect_more.train_sizes(dataset, inputs[0], first)
+            failures += failed
         if len(others) == 1:
             return _Using(first, others[0], sizes, [])
         return _Using(first, None, sizes, others)
@@ -338,20 +338,6 @@ class Inspect:
             other_lines=others,
             swept=sweeps[0].timeline if sweeps else "",
         )
-
-    def _train_sizes(
-        self, one: NamedItem, detector: Detector, failures: list[Failure]
-    ) -> list[FilterBank]:
-        """Filter banks of all sizes, learned from a data set without the photo."""
-        assert self.sweep_training is not None
-        dataset = self.truths.open(self.sweep_training)
-        own = one.item.photo_path.resolve()
-        others = [item for item in with_truth(dataset) if item.photo_path.resolve() != own]
-        if not others:
-            raise UsageError(f"{dataset.name} holds no photo with a truth but {one.name} itself.")
-        banks, failed = evaluation.train_sizes(others, detector.training, dataset=dataset.name)
-        failures += failed
-        return banks
 
     def _with_truth(self, one: NamedItem) -> DatasetItem:
         """A photo with the truth that was given, or its own."""
