@@ -20,8 +20,8 @@ _GROUPS = {
     "Detector": ("method", "network", "sky-class", "bank", "sky-model", "preset", "config"),
     "Options": (),
     "Output": (
-        "out", "mask", "overlay", "json", "report", "save", "screenshot", "screenshot-size",
-        "serve", "connect", "headless",
+        "out", "mask", "overlay", "overlay-width", "json", "report", "save", "screenshot",
+        "screenshot-size", "serve", "connect", "headless",
     ),
     "Work": ("workers", "quiet", "verbose", "help", "help-all"),
 }  # fmt: skip

@@ -26,12 +26,17 @@ from skyline_viz.running.photo_table import (
 )
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 from skyline_viz.system.names import columns_of, padded, shortened
+from skyline_viz.system.notes import note
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.method import Method
+    from skyline_viz.skyline import Skyline
+
+_WIDEST = 100
+"""Of a line in an overlay, in pixels."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +67,10 @@ class Detect:
     """Also write NAME-mask.png: 0 is sky, 255 terrain."""
 
     overlay: Switch = False
-    """Also write NAME-overlay.jpg: the photo with its skyline."""
+    """Also write NAME-overlay.jpg: the photo with its skyline, and its truth where it has one."""
+
+    overlay_width: Annotated[int, tyro.conf.arg(metavar="PIXELS")] = 0
+    """Width of the skyline in an overlay; 0 takes what is seen well, 1 hides no ridge."""
 
     json: Switch = False
     """Also write NAME.json: the skyline as JSON."""
@@ -77,6 +85,12 @@ class Detect:
         """Detect all photos; return the exit status."""
         if not self.photos:
             raise UsageError(NO_PHOTOS)
+        if not 0 <= self.overlay_width <= _WIDEST:
+            raise UsageError(
+                f"--overlay-width is from 0 to {_WIDEST} pixels, not {self.overlay_width}."
+            )
+        if self.overlay_width and not self.overlay:
+            raise UsageError("--overlay-width is that of --overlay, which is not asked for.")
         began = Beginning.now()
         inputs = collect(self.photos, taken=(Path(TABLE).stem, Path(RECORD).stem))
         detector = self.methods.one()
@@ -102,7 +116,7 @@ class Detect:
 
     def _options(self) -> dict[str, object]:
         """What else was chosen, for the record of the run."""
-        names = ("mask", "overlay", "json", "workers", "max_megapixels")
+        names = ("mask", "overlay", "overlay_width", "json", "workers", "max_megapixels")
         return {"out": str(self.out), **{name: getattr(self, name) for name in names}}
 
 
@@ -146,7 +160,9 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
             write_photo(files[-1], (~line.to_mask(height)).astype(np.uint8) * np.uint8(255))
         if options.overlay:
             files.append(path.with_name(f"{photo.name}-overlay.jpg"))
-            write_photo(files[-1], draw_overlay(pixels, line))
+            truth = _truth_of(photo, line.width)
+            picture = draw_overlay(pixels, line, truth, options.overlay_width or None)
+            write_photo(files[-1], picture)
     seen = found.visibility
     row = PhotoRow(
         photo.name,
@@ -159,6 +175,24 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
         seconds=found.total_seconds,
     )
     return _Found(row, tuple(files), seen.doubt if seen else "")
+
+
+def _truth_of(photo: NamedItem, width: int) -> Skyline | None:
+    """The truth of a photo, for its overlay; None where it has none, or none that can be read."""
+    from skyline_viz.skyline import SkylineError
+
+    try:
+        truth = photo.item.truth()
+    except SkylineError as error:
+        note(f"{photo.name}-overlay.jpg is without a truth: {error}")
+        return None
+    if truth is not None and truth.width != width:
+        note(
+            f"{photo.name}-overlay.jpg is without a truth: that is of {truth.width} columns, and "
+            f"the photo of {width}."
+        )
+        return None
+    return truth
 
 
 def _failed(photo: NamedItem, failure: Failure) -> PhotoRow:

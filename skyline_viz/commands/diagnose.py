@@ -18,6 +18,7 @@ from skyline_viz.command_line.on_truth import OnTruth
 from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder, Switch
 from skyline_viz.system.memory import RECORDING
+from skyline_viz.system.nearest import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,7 +58,9 @@ class Diagnose(OnTruth):
         check_report(self.report)
         dataset, items = self.open()
         if self.photo and self.photo not in {item.name for item in items}:
-            raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
+            near = nearest(self.photo, [item.name for item in items])
+            better = f"; did you mean {near}?" if near else "."
+            raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth{better}")
         workers, kept = self.begin("diagnose", dataset, items, self.out, RECORDING)
         groups = self.folds.groups(items) if self.folds.asked else None
         folds = self.folds.dealt(items, groups)

@@ -324,8 +324,8 @@ class Inspect:
             tell(f"{one.name}: {parting_words.said(beside.parting)}")
         if found.visibility and found.visibility.doubt:
             tell(f"{one.name}: {found.visibility.doubt}")
-        if diagnosis and diagnosis.right:
-            tell(*diagnosis.said_right.splitlines())
+        if diagnosis:
+            tell(*diagnosis.said.splitlines())
         return Contents.of(
             found,
             fidelity,

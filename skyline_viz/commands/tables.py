@@ -20,6 +20,7 @@ from skyline_viz.command_line.messages import (
     status_after,
     tell,
     tell_done,
+    tell_drawn,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import Folder, Switch
@@ -149,8 +150,8 @@ class Tables:
             evaluation.write_evaluation(folder, found, about={"dataset": name}, title=title)
 
     def _write_tables(self, tables: list[Table]) -> None:
-        page = evaluation.markdown(tables)
-        write_text(self.out / "tables.md", page)
+        write_text(self.out / "tables.md", evaluation.markdown(tables))
         write_text(self.out / "tables.tex", evaluation.latex(tables))
-        tell(*page.splitlines())
+        tell_drawn(*evaluation.measured_only(tables), width=110)
+        tell(f"Published rows and notes are beside them in {self.out / 'tables.md'}.")
         tell_done(f"tables.md, tables.tex, {listed(evaluation.FILES)} in {self.out}")

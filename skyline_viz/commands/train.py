@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
     from skyline_viz.datasets.layouts import DatasetItem
     from skyline_viz.detector import Detector
+    from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Configurable
 
 
@@ -184,7 +185,7 @@ class Train:
         trained.save(self.out)
         tell(f"photos used   {bank.provenance.images} of {photos} in {bank.provenance.dataset}")
         tell(f"samples       {bank.samples.sum():,}, flipped ones included")
-        tell(f"starved bins  {bank.starved.sum()} of {counted(bank.bins.count, 'bin')}")
+        tell(f"starved bins  {_starved(bank, training)}")
         tell(f"filters       {bank.size} x {bank.size} pixels")
         tell(f"settings      {training.detector.name}")
         tell(
@@ -219,3 +220,14 @@ class Train:
         tell(f"{method.name}, trained on {counted(len(items), 'photo')} of {dataset}")
         tell_done(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
         return GOOD
+
+
+def _starved(bank: FilterBank, training: TrainingConfig) -> str:
+    """How many bins have learned from few samples, and what that means for their filters."""
+    from skyline_viz.filter_bank import STARVED_SAMPLES
+
+    said = f"{bank.starved.sum()} of {counted(bank.bins.count, 'bin')}"
+    if not bank.starved.any():
+        return said
+    lean = "lean on the others of their orientation" if training.pooling else "are used as they are"
+    return f"{said} had under {STARVED_SAMPLES} samples, which is usual; they {lean}"

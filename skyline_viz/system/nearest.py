@@ -3,6 +3,8 @@
 import difflib
 from collections.abc import Iterable
 
+_ALIKE = 0.65  # of 1: "grey" for "gray", but no "clear" for "lunar"
+
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known word that is most like another one, whatever their case; None if none is.
@@ -11,7 +13,7 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     ('grey', None)
     """
     folded = {one.casefold(): one for one in known}
-    near = difflib.get_close_matches(word.casefold(), list(folded), n=1)
+    near = difflib.get_close_matches(word.casefold(), list(folded), n=1, cutoff=_ALIKE)
     return folded[near[0]] if near else None
 
 

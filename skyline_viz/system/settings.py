@@ -208,7 +208,7 @@ class Configured:
         changes: dict[str, Any] = {}
         for name, value in values.items():
             if name not in known:
-                raise SettingError(f"there is no setting {name}")
+                raise SettingError(f"there is no setting {name}; {meant(name, known, 'there are')}")
             kind, _, limits = known[name]
             changes[name] = from_document(value, kind)
             check_kind(name, changes[name], kind, *limits)
