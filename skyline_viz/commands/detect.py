@@ -161,7 +161,7 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
         if options.overlay:
             files.append(path.with_name(f"{photo.name}-overlay.jpg"))
             truth = _truth_of(photo, line.width)
-            picture = draw_overlay(pixels, line, truth, options.overlay_width or None)
+            picture = draw_overlay(pixels, line, truth, thick=options.overlay_width or None)
             write_photo(files[-1], picture)
     seen = found.visibility
     row = PhotoRow(

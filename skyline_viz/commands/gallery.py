@@ -225,7 +225,7 @@ def change_flags(
     if not entries:
         raise UsageError(
             f"{out} holds no photos, or those of an earlier version; bring it up to date first: "
-            f"skyline-viz gallery DATASET --out {out}"
+            f"skyline-viz gallery PHOTO... --out {out}"
         )
     files = gone | {entry.name: entry.photo for entry in entries}
     done, undone = flags.find_names(flag, files), flags.find_names(unflag, files)

@@ -56,6 +56,20 @@ def test_the_reference_lists_exactly_the_commands_there_are():
         assert set(re.findall(r"^  ([a-z]+) ", help_of(program), re.MULTILINE)) == set(commands)
 
 
+def test_the_reference_names_what_commands_take_as_their_help_does():
+    reference = (ROOT / "docs" / "reference.md").read_text()
+    rows = dict(re.findall(r"^\| `([a-z]+) ?([^`]*)` \|", reference, re.MULTILINE))
+    for program, commands in PROGRAMS:
+        for command in commands:
+            usage = help_of(program, command).splitlines()[0]
+            assert (
+                usage
+                == f"usage: {usage.split()[1]} {command} {rows[command]} [OPTIONS]".replace(
+                    "  ", " "
+                )
+            )
+
+
 def test_the_reference_lists_exactly_the_settings_there_are():
     reference = (ROOT / "docs" / "reference.md").read_text().split("## Settings", 1)[1]
     tables = reference.split("## Files")[0]
