@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from skyline_viz.command_line.messages import UsageError, listed
+from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.options import Option, options_of
 from skyline_viz.system.nearest import meant, nearest
 from skyline_viz.system.telling import WORDS
@@ -42,7 +42,7 @@ def checked(program: str, commands: Mapping[str, object], words: Sequence[str]) 
             raise UsageError(f"which {missing.value}? See {called} --help.")
         if extra := found.alone[len(alone) :]:
             takes = "one " + " and one ".join(one.value for one in alone) if alone else "options"
-            raise UsageError(f"{called} takes {takes}, and there is also {listed(extra)}.")
+            raise UsageError(f"{called} takes {takes}, and there is also {', '.join(extra)}.")
     for one in options:
         if one.required and not one.positional and one.flags[0] not in found.named:
             raise UsageError(f"{called} needs {one.flags[0]} {one.value}.")

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from skyline_viz.command_line.inputs import NO_PHOTOS, collect, output_folder
-from skyline_viz.command_line.messages import UsageError, counted, status_after, tell, tell_done
+from skyline_viz.command_line.messages import (
+    UsageError,
+    counted,
+    listed,
+    status_after,
+    tell,
+    tell_done,
+)
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.run_record import RECORD, Beginning
 from skyline_viz.command_line.settings import Folder, Switch
@@ -206,6 +213,8 @@ def _sum_up(out: Path, rows: Sequence[PhotoRow], wide: int) -> None:
     good = [row for row in rows if not row.error]
     if len(good) < 2:
         return
+    if odd := [shortened(row.name) for row in good if row.case not in ("", "skyline")]:
+        tell(f"{counted(len(odd), 'photo')} may show no skyline, or a part of one: {listed(odd)}")
     tell_done(
         f"{counted(len(good), 'skyline')} in {out}; {TABLE} says how sure each is, {RECORD} how"
     )

@@ -308,3 +308,10 @@ def test_verbose_names_each_photo_as_it_is_done(say, hills):
     status, _, err = say("detect", hills, "--verbose")
     assert status == 0
     assert re.search(r"^2 of 4 photos after \d+\.\d s: p1$", err, re.MULTILINE)
+
+
+def test_photos_that_may_show_no_skyline_are_named_at_the_end(say, hills, tmp_path, monkeypatch):
+    monkeypatch.setattr(SkyModel, "sky", NoSky.sky)
+    status, out, _ = say("detect", hills, "--out", "out", "--quiet")
+    assert status == 0
+    assert "4 photos may show no skyline, or a part of one: p0, p1, p2, p3\n" in out
