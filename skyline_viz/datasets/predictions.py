@@ -20,7 +20,6 @@ from skyline_viz.photo import PHOTO_SUFFIXES, photo_size
 from skyline_viz.skyline import Skyline, SkylineError
 
 _DEEP = 4  # folders below folders
-_OF_A_RUN = {"skylines.csv", "run.json"}  # what `detect` writes about all lines together
 _OVERLAY = "-overlay"  # what we add to the name of a photo with its line drawn on it
 
 
@@ -236,11 +235,7 @@ def _below(folder: Path, depth: int) -> Iterator[Path]:
 
 def _usable(files: Sequence[Path], notes: dict[str, list[str]]) -> list[Path]:
     """Files that may hold a line: CSV, then JSON, then pictures, those in folders of truths."""
-    texts = [
-        file
-        for file in files
-        if file.suffix.lower() in SKYLINE_SUFFIXES and file.name not in _OF_A_RUN
-    ]
+    texts = [file for file in files if file.suffix.lower() in SKYLINE_SUFFIXES]
     good = [file for file in texts if begins_like_a_skyline(file)]
     if other := [file.name for file in texts if file not in good]:
         notes["not used, because they hold no skyline"] = other

@@ -33,12 +33,11 @@ def test_files_of_no_photo_and_second_files_are_named(tmp_path):
     put(lines / "a-mask.png", MASK)
     put(lines / "a-overlay.jpg", PHOTO)
     put(lines / "zebra.png", MASK)
-    (lines / "run.json").write_text("{}")  # of detect, and no line
-    (lines / "notes.json").write_text("{}")
+    (lines / "run.json").write_text("{}")
     found = sv.open_predictions(lines, items)
     assert found.extra == ("zebra.png",)
     assert found.notes == (
-        "not used, because they hold no skyline: notes.json.",
+        "not used, because they hold no skyline: run.json.",
         "not used, because another file of the same photo is: a-mask.png.",
     )
 
