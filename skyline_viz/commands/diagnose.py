@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+import tyro
 
 from skyline_viz import diagnosis, evaluation
 from skyline_viz.command_line.messages import (
@@ -37,7 +39,7 @@ class Diagnose(OnTruth):
         skyline-viz diagnose hills --report causes.html --no-remedies
     """
 
-    photo: str = ""
+    photo: Annotated[str, tyro.conf.arg(metavar="NAME")] = ""
     """Name of one photo, to print its diagnosis in full; --out gets NAME.json and NAME.md then."""
 
     tolerance: float = 0.0

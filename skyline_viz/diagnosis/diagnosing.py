@@ -176,7 +176,8 @@ class Diagnosis:
             return self.said_right
         one, *others = self.by_error
         first, last = one.columns
-        more = f"; {len(others)} more stretches are wrong" if others else ""
+        stretches = "stretch is" if len(others) == 1 else "stretches are"
+        more = f"; {len(others)} more {stretches} wrong" if others else ""
         return (
             f"Wrong: columns {first} to {last}, by {one.mean_error:.1f} px in the mean, "
             f"{one.title}{more}."

@@ -139,3 +139,13 @@ def test_one_photo_has_its_remedies_in_all_its_files(found, tmp_path):
     said = text.read_text()
     assert "- off: A_err 5.00 px, -18.00 px; add `--off`" in said
     assert "- weak: A_err 22.00 px, -1.00 px, still a gross miss; add `--weak`" in said
+
+
+def test_a_photo_is_said_to_be_right_or_where_it_is_most_wrong():
+    assert Diagnosis((), 4.0).said == "Right: no column is off by more than 4 px."
+    assert Diagnosis((WIRE,), 4.0).said == (
+        "Wrong: columns 50 to 59, by 30.0 px in the mean, cheaper path by strength, wire."
+    )
+    assert Diagnosis((WIRE, CLOUD), 4.0).said.endswith(
+        "by clear sky, cloud above; 1 more stretch is wrong."
+    )
