@@ -114,7 +114,7 @@ def parsed(
         ValueError: The words name what there is not, or a setting has a value that it refuses.
     """
     words = list(arguments)
-    if asks_for_help(words):
+    if asks_for_help(words) and (words[0] in commands or words[0].startswith("-")):
         tell(*page(program, about, commands, words).splitlines())
         raise SystemExit(GOOD)
     if not words[:1] or not words[0].startswith("--tyro-"):  # which write completions for a shell

@@ -41,7 +41,7 @@ class Demo:
     """Folder of the gallery; without a display, a picture of it goes there, too."""
 
     methods: MethodOptions = field(default_factory=Methods)
-    """What detects; our detector with its default settings unless given."""
+    """What detects, one method; our detector with its default settings unless given."""
 
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""

@@ -68,7 +68,7 @@ class Detect:
     margin, small where the line is unsure; skylines.csv, how sure each photo is; run.json."""
 
     methods: MethodOptions = field(default_factory=Methods)
-    """What detects; our detector with its default settings unless given."""
+    """What detects, one method; our detector with its default settings unless given."""
 
     mask: Switch = False
     """Also write NAME-mask.png: 0 is sky, 255 terrain."""

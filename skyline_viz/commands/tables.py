@@ -58,7 +58,7 @@ class Tables:
     """Folder for tables.md, tables.tex and the files of `evaluate`; made where it is missing."""
 
     methods: MethodOptions = field(default_factory=Methods)
-    """The methods; all that are known unless given."""
+    """The methods; all that are known unless given. They are trained anew, so no trained file."""
 
     truths: TruthOptions = field(default_factory=Truths)
     """How to read masks that leave a choice."""

@@ -70,7 +70,14 @@ def test_the_version_needs_no_parsing(capsys):
 
 @pytest.mark.parametrize(
     "words",
-    [["hop"], ["jump", "--height", "far"], [], ["jump", "--quiet", "--verbose"], ["-v"]],
+    [
+        ["hop"],
+        ["jump", "--height", "far"],
+        [],
+        ["jump", "--quiet", "--verbose"],
+        ["-v"],
+        ["hop", "--help"],
+    ],
 )
 def test_words_that_make_no_sense_are_one_sentence(words, capsys):
     assert run_program("prog", parse, words) == USAGE
