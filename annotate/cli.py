@@ -1,7 +1,7 @@
 """The command ``skyline-annotate``: which commands there are."""
 
 from collections.abc import Sequence
-from typing import Annotated, Any, Union
+from typing import Any
 
 import tyro
 
@@ -11,7 +11,7 @@ from annotate.commands.repairs import Repair
 from annotate.commands.reports import Agreement, Status
 from annotate.commands.transfer import Backup, Export, Import
 from skyline_viz import __version__
-from skyline_viz.command_line.methods import described, spelt_out
+from skyline_viz.command_line.methods import Methods, described, spelt_out
 from skyline_viz.command_line.program import Command, parsed, run_program
 
 _ABOUT = f"""Label mountain skylines: the detector proposes, a few clicks correct, nothing is lost.
@@ -36,10 +36,15 @@ def parse(arguments: list[str]) -> Command:
         SystemExit: After help was printed, or what is wrong with the words.
         ValueError: A setting has a value that it refuses.
     """
-    missing: Any = tyro.MISSING
     words = spelt_out(arguments, masks=("import",))
-    commands = {
-        "open": Open(missing, methods=described(words)),
+    return parsed(PROGRAM, _ABOUT, commands(described(words)), words)
+
+
+def commands(methods: Methods) -> dict[str, Command]:
+    """All commands by name, with what a command line describes as defaults."""
+    missing: Any = tyro.MISSING
+    return {
+        "open": Open(missing, methods=methods),
         "export": Export(missing),
         "import": Import(missing, missing),
         "status": Status(missing),
@@ -47,8 +52,3 @@ def parse(arguments: list[str]) -> Command:
         "backup": Backup(missing),
         "repair": Repair(missing),
     }
-    kinds = tuple(
-        Annotated[type(default), tyro.conf.subcommand(name, default=default)]
-        for name, default in commands.items()
-    )
-    return parsed(PROGRAM, _ABOUT, Union[kinds], words)  # noqa: UP007  # known at run time

@@ -1,7 +1,7 @@
 """The command ``skyline-viz``: which commands there are."""
 
 from collections.abc import Sequence
-from typing import Annotated, Any, Union
+from typing import Any
 
 import tyro
 
@@ -49,13 +49,13 @@ def parse(arguments: list[str]) -> Command:
     training = methods.config
     if words[:1] == ["train"]:
         training = trained_from(words, methods)
-    return parsed("skyline-viz", _ABOUT, _commands(methods, TrainingConfig.of(training)), words)
+    return parsed("skyline-viz", _ABOUT, commands(methods, TrainingConfig.of(training)), words)
 
 
-def _commands(methods: Methods, training: TrainingConfig) -> Any:  # noqa: ANN401  # made at run time
-    """All commands as one type for tyro, with what was described as defaults."""
+def commands(methods: Methods, training: TrainingConfig) -> dict[str, Command]:
+    """All commands by name, with what a command line describes as defaults."""
     missing: Any = tyro.MISSING
-    defaults = {
+    return {
         "detect": Detect(missing, methods=methods),
         "inspect": Inspect(missing, methods=methods),
         "gallery": GalleryCommand(methods=methods),
@@ -66,8 +66,3 @@ def _commands(methods: Methods, training: TrainingConfig) -> Any:  # noqa: ANN40
         "render": Render(),
         "demo": Demo(methods=methods),
     }
-    kinds = tuple(
-        Annotated[type(default), tyro.conf.subcommand(name, default=default)]
-        for name, default in defaults.items()
-    )
-    return Union[kinds]  # noqa: UP007  # the members are known at run time only

@@ -27,7 +27,13 @@ _SUBPIXEL = 4
 """Binary digits behind the point of the coordinates that lines are drawn with."""
 
 
-def draw_overlay(photo: U8, skyline: Skyline | None = None, truth: Skyline | None = None) -> U8:
+def draw_overlay(
+    photo: U8,
+    skyline: Skyline | None = None,
+    truth: Skyline | None = None,
+    *,
+    thick: int | None = None,
+) -> U8:
     """Copy of a photo with its skyline in magenta and the truth in turquoise.
 
     A line runs where the sky ends, between the last sky pixel and the first terrain pixel. Where
@@ -38,6 +44,8 @@ def draw_overlay(photo: U8, skyline: Skyline | None = None, truth: Skyline | Non
         photo: ``(H, W, 3)`` uint8 RGB.
         skyline: The detected line.
         truth: The true line.
+        thick: Width of the skyline in pixels, 1 or more; `line_width` unless given. A line of one
+            pixel has no halo, so that nearly all of the ridge below it is seen.
 
     Raises:
         SkylineError: A line has another width than the photo.
@@ -45,7 +53,8 @@ def draw_overlay(photo: U8, skyline: Skyline | None = None, truth: Skyline | Non
     check_photo(photo)
     height, width = photo.shape[:2]
     picture = np.ascontiguousarray(photo).copy()
-    thick = line_width(height, width)
+    bare = thick == 1
+    thick = line_width(height, width) if thick is None else thick
     rim = max(1, round(thick / 2))
     lines = []
     for line, colour, across in ((truth, TRUTH, thick + 2 * rim), (skyline, PATH, thick)):
@@ -54,7 +63,7 @@ def draw_overlay(photo: U8, skyline: Skyline | None = None, truth: Skyline | Non
         if line.width != width:
             raise SkylineError(f"the photo is {width} columns wide, the skyline {line.width}")
         lines.append(([_fixed_point(stroke) for stroke in _strokes(line)], colour, across))
-    for strokes, _, across in lines:  # all halos lie below all lines
+    for strokes, _, across in lines * (not bare):  # all halos lie below all lines
         _draw(picture, strokes, HALO, across + 2 * rim)
     for strokes, colour, across in lines:
         _draw(picture, strokes, colour, across)

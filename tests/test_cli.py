@@ -8,7 +8,7 @@ from contextlib import nullcontext
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.cli import main
+from skyline_viz.cli import main, parse
 from skyline_viz.commands import detect as detect_command
 from skyline_viz.running import batch
 from testing.programs.commands import ROOT, files, program, write_scene
@@ -46,9 +46,10 @@ COMMANDS = [
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_defaults_are_of_their_types(say, command, monkeypatch):
+def test_defaults_are_of_their_types(command, monkeypatch):
     monkeypatch.setattr("skyline_viz.command_line.program.without", lambda *_: nullcontext())
-    assert say(command, "--help")[0] == 0  # tyro asks typeguard, and warns
+    words = {"render": [], "train": ["hills", "--out", "b.npz"]}.get(command, ["hills"])
+    parse([command, *words])  # tyro asks typeguard, and warns
     assert "typeguard" in sys.modules
 
 
@@ -71,13 +72,28 @@ def test_help_imports_nothing_heavy():
 
 
 @pytest.mark.parametrize(
-    "words", [[], ["conquer"], ["detect", "a.jpg", "--summit", "1"], ["train", "x"]]
+    ("words", "told"),
+    [
+        ([], "which command? There are detect, inspect, "),
+        (["conquer"], "there is no command conquer; there are detect, "),
+        (["detct", "a.jpg"], "there is no command detct; did you mean detect?"),
+        (["detect", "a.jpg", "--summit", "1"], "has no option --summit; see "),
+        (["detect", "a.jpg", "--overlai"], "has no option --overlai; did you mean --overlay?"),
+        (["detect", "a.jpg", "--delta", "2"], "--delta; did you mean --config.delta?"),
+        (["detect", "a.jpg", "--config.edge-source", "gray"], "gray; did you mean grey?"),
+        (["detect", "a.jpg", "--preset", "papr"], "papr; did you mean paper?"),
+        (["detect", "a.jpg", "--method", "papr"], "a trained one; did you mean paper?"),
+        (["gallery", "hills", "--cause", "fog"], "fog; it is one of truth doubtful, missed edge, "),
+        (["train", "x"], "skyline-viz train needs --out FILE."),
+        (["evaluate"], "which DATASET? See skyline-viz evaluate --help."),
+    ],
 )
-def test_usage_errors_end_with_2(say, words):
+def test_usage_errors_end_with_2_and_one_sentence(say, words, told):
     status, out, err = say(*words)
-    assert status == 2
-    assert out == ""
-    assert err
+    assert (status, out) == (2, "")
+    assert err.startswith("skyline-viz: ")
+    assert err.count("\n") == 1
+    assert told in err
 
 
 @pytest.mark.parametrize(
@@ -102,7 +118,9 @@ def test_usage_errors_end_with_2(say, words):
         (["tables", "HILLS", "--sky-class", "3"], "--sky-class is a class of --network"),
         (["detect", "HILLS", "--sky-class", "3"], "--sky-class is a class of --network"),
         (["render", "--seed", "3"], "are for scenes of a --kind."),
-        (["render", "--kind", "lunar"], "a scene is one of clear, "),
+        (["render", "--kind", "lunar"], "no scene 'lunar'; a scene is one of clear, "),
+        (["render", "--kind", "snwo"], "there is no scene 'snwo'; did you mean snow?"),
+        (["diagnose", "HILLS", "--photo", "pp0"], "no photo pp0 with a truth; did you mean p0?"),
         (["render", "--kind", "clear", "--count", "0"], "--count is 1 or more, not 0."),
         (["demo", "."], ". holds no photograph."),
     ],

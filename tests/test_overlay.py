@@ -85,3 +85,10 @@ def test_lines_grow_with_the_photo():
     assert widths == sorted(widths)
     assert widths[0] == 2
     assert widths[-1] >= 2 * widths[1]
+
+
+def test_a_line_of_one_pixel_hides_nothing_else():
+    changed = (draw_overlay(PHOTO, level(30), thick=1) != PHOTO).any(axis=2)
+    assert changed[:, 40].sum() <= 2  # it lies between two rows
+    wide = (draw_overlay(PHOTO, level(30), thick=9) != PHOTO).any(axis=2)
+    assert wide[:, 40].sum() > (draw_overlay(PHOTO, level(30)) != PHOTO).any(axis=2)[:, 40].sum()

@@ -10,6 +10,25 @@ kind=${1:-run}
 
 say() { printf 'skyline-viz setup: %s\n' "$*" >&2; }
 
+# Run a command that takes long: say now and then that it goes on, and what it said when it fails.
+watched() {
+    local log pid status=0 began=$SECONDS told=$SECONDS
+    log=$(mktemp)
+    "$@" >"$log" 2>&1 &
+    pid=$!
+    while kill -0 "$pid" 2>/dev/null; do
+        sleep 1
+        if [ $((SECONDS - told)) -ge "${TELL_EVERY:-15}" ]; then
+            told=$SECONDS
+            say "$((SECONDS - began)) s: $(tail -n 1 "$log" | tr -d '\r' | cut -c 1-90)"
+        fi
+    done
+    wait "$pid" || status=$?
+    [ "$status" = 0 ] || tail -n 15 "$log" >&2
+    rm -f "$log"
+    return "$status"
+}
+
 # a Python from 3.11 to 3.13 that can make virtual environments
 usable() { "$1" -c 'import sys, venv, ensurepip; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 13))' 2>/dev/null; }
 
@@ -60,17 +79,18 @@ if [ ! -x .venv/bin/python ] || ! usable .venv/bin/python; then
     "$python" -m venv .venv
 fi
 
-pip=(.venv/bin/python -m pip --disable-pip-version-check --quiet --no-input)
+pip=(watched .venv/bin/python -m pip --disable-pip-version-check --no-input)
 if [ "$kind" = dev ]; then
-    say "installing the locked development set"
+    say "installing the locked development set; minutes, by the network"
     "${pip[@]}" install --require-hashes -r requirements-dev.txt
     # The extra deep. Torch is not in the locked set: that is for all systems, and torch would bring
     # gigabytes of CUDA packages into it, on machines that find a build for the CPU alone, too.
+    say "installing torch"
     "${pip[@]}" install 'torch==2.13.0' || {
         say "torch 2.13.0 could not be installed; tests of the extra deep will be reported as not run."
     }
 else
-    say "installing the locked set that running needs"
+    say "installing the locked set that running needs; a minute or more, by the network"
     "${pip[@]}" install --require-hashes -r requirements.txt
 fi
 "${pip[@]}" install --no-deps --no-build-isolation -e .
@@ -93,7 +113,8 @@ if [ "$kind" = dev ] && [ "$(uname)" = Linux ] && ! browser >/dev/null 2>&1; the
 fi
 # ... and check the page's JavaScript with tsc and eslint, under the locked set's Node.
 if [ "$kind" = dev ]; then
-    PATH="$PWD/.venv/bin:$PATH" npm ci --prefix tools/page --ignore-scripts --silent || {
+    say "installing what checks the page's JavaScript"
+    PATH="$PWD/.venv/bin:$PATH" watched npm ci --prefix tools/page --ignore-scripts || {
         say "npm could not install typescript and eslint, which check the labelling page; is its registry reachable?"
         exit 1
     }

@@ -35,7 +35,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Open:
-    """Label the photos of a folder in the browser: the detector proposes, a few clicks correct."""
+    """Label the photos of a folder in the browser: the detector proposes, a few clicks correct.
+
+    Examples:
+        skyline-annotate open photos
+        skyline-annotate open photos --order confidence
+        skyline-annotate open photos --annotator ada --pass-number 2 --blind 0.2
+    """
 
     folder: PhotoFolder
     """Folder of photos; labels are kept in it, in skyline-labels.sqlite."""
@@ -152,7 +158,7 @@ def propose_all(bench: Workbench) -> None:
                 bench.session(card.photo.id)
             except Exception as error:  # the page shows it, too
                 say(sentence(error), PROGRAM)
-            bar.advance()
+            bar.advance(card.photo.name)
 
 
 def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:

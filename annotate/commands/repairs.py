@@ -10,7 +10,13 @@ from skyline_viz.command_line.messages import GOOD, SOME_FAILED, say, tell
 
 @dataclass(frozen=True)
 class Repair:
-    """Save what can be read of damaged labels, and set aside those that cannot; none is deleted."""
+    """Save what can be read of damaged labels, and set aside those that cannot; none is deleted.
+
+    Examples:
+        skyline-annotate repair photos
+        skyline-annotate repair photos/june
+        skyline-annotate repair /data/photos
+    """
 
     folder: PhotoFolder
     """Folder of the photos."""

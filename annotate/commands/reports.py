@@ -28,7 +28,13 @@ from skyline_viz.system.names import cell, columns_of, padded, shortened
 
 @dataclass(frozen=True)
 class Status:
-    """Show how far each annotator is, and how long a photo takes."""
+    """Show how far each annotator is, and how long a photo takes.
+
+    Examples:
+        skyline-annotate status photos
+        skyline-annotate status photos --orphans
+        skyline-annotate status photos/june
+    """
 
     folder: PhotoFolder
     """Folder of the photos."""
@@ -79,7 +85,13 @@ class Status:
 
 @dataclass(frozen=True)
 class Agreement:
-    """Compare two passes over the same photos: two annotators, or one who labelled them twice."""
+    """Compare two passes over the same photos: two annotators, or one who labelled them twice.
+
+    Examples:
+        skyline-annotate agreement photos
+        skyline-annotate agreement photos --first ada:1 --second ada:2
+        skyline-annotate agreement photos --first ada --second bo --picture apart.png
+    """
 
     folder: PhotoFolder
     """Folder of the photos."""

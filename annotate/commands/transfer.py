@@ -33,7 +33,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Export:
-    """Write accepted labels in a format that other programs read."""
+    """Write accepted labels in a format that other programs read.
+
+    Examples:
+        skyline-annotate export photos
+        skyline-annotate export photos --format mask --out masks
+        skyline-annotate export photos --format coco --annotator ada --out coco
+    """
 
     folder: PhotoFolder
     """Folder of the photos."""
@@ -88,7 +94,13 @@ class Export:
 
 @dataclass(frozen=True)
 class Import:
-    """Read labels that another program, or another annotator, has made."""
+    """Read labels that another program, or another annotator, has made.
+
+    Examples:
+        skyline-annotate import photos skylines
+        skyline-annotate import photos masks --format mask --sky 255
+        skyline-annotate import photos coco/skylines.json --status accepted
+    """
 
     folder: PhotoFolder
     """Folder of the photos."""
@@ -188,7 +200,13 @@ class Import:
 
 @dataclass(frozen=True)
 class Backup:
-    """Copy the labels of a folder into one file, also while they are being changed."""
+    """Copy the labels of a folder into one file, also while they are being changed.
+
+    Examples:
+        skyline-annotate backup photos
+        skyline-annotate backup photos --out labels.sqlite
+        skyline-annotate backup photos/june --out june.sqlite
+    """
 
     folder: PhotoFolder
     """Folder of the photos."""

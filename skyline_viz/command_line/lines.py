@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from skyline_viz.datasets.predictions import Predictions
     from skyline_viz.running.batch import Failure
 
-LineFolders: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="DIR [DIR ...]")]
+LineFolders: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="[LABEL=]DIR")]
 """Folders or files of lines, each with a label before it or not."""
 
 

@@ -10,6 +10,7 @@ from typing import TextIO
 
 from skyline_viz.running.batch import Failure
 from skyline_viz.system.names import printable
+from skyline_viz.system.telling import Telling, telling
 
 GOOD, SOME_FAILED, USAGE, INTERRUPTED, BROKEN_PIPE = 0, 1, 2, 130, 141
 """Exit status: all good, photos failed or the work broke off, bad input, Ctrl-C, ``| head``. After
@@ -24,6 +25,12 @@ def tell(*lines: str) -> None:
     """Print lines on stdout, without whatever a terminal would obey."""
     for line in lines:
         _write(printable(line), sys.stdout)
+
+
+def tell_done(*lines: str) -> None:
+    """Print what was done on the way to results, unless ``--quiet`` asks for these alone."""
+    if telling() > Telling.RESULTS:
+        tell(*lines)
 
 
 def tell_row(*cells: str) -> None:

@@ -25,7 +25,7 @@ from skyline_viz.system.stand_ins import without
 if TYPE_CHECKING:
     from skyline_viz.method import Configurable
 
-MethodTexts: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="METHOD [METHOD ...]")]
+MethodTexts: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="METHOD")]
 """Methods by what they are named, see `methods.specs`."""
 
 SkyModelName: TypeAlias = Annotated[str | None, tyro.conf.arg(metavar="{small,large,FILE.onnx}")]

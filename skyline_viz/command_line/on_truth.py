@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
@@ -13,7 +13,6 @@ from skyline_viz.command_line.folds import FoldOptions, Folds
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import Folder
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.system.memory import DETECTING, MAX_MEGAPIXELS
@@ -29,7 +28,7 @@ if TYPE_CHECKING:
 class OnTruth:
     """Options of a command that tests methods on photos with truth."""
 
-    dataset: tyro.conf.Positional[Folder]
+    dataset: Annotated[Path, tyro.conf.Positional, tyro.conf.arg(metavar="DATASET")]
     """Folder of a data set with truths, in a published layout or plain."""
 
     folds: FoldOptions = field(default_factory=Folds)

@@ -9,14 +9,16 @@ import io
 import os
 import sys
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from time import perf_counter
 from types import ModuleType
-from typing import Any, Protocol
+from typing import Annotated, Any, Protocol, Union
 
 import tyro
 
 from skyline_viz import __version__
+from skyline_viz.command_line.help_pages import asks_for_help, page
 from skyline_viz.command_line.messages import (
     BROKEN_PIPE,
     GOOD,
@@ -29,12 +31,14 @@ from skyline_viz.command_line.messages import (
 )
 from skyline_viz.command_line.run_record import remember
 from skyline_viz.command_line.sizes import limit
+from skyline_viz.command_line.words import checked
 from skyline_viz.running.batch import FULL, BatchError, sentence
 from skyline_viz.system.endings import AskedToEnd, asked_by_signals
 from skyline_viz.system.memory import end_quickly, keep_freed, loading
 from skyline_viz.system.names import printable
 from skyline_viz.system.notes import heard_by, once
 from skyline_viz.system.stand_ins import without
+from skyline_viz.system.telling import Telling, asked_to_tell, told
 
 _QUIET = "warn,re_log_encoding=off,re_sdk=off"
 """Rerun tells in its own way of recordings that cannot be written; `new_recording` does in ours."""
@@ -62,10 +66,14 @@ def run_program(
     end_quickly()
     words = sys.argv[1:] if arguments is None else list(arguments)
     remember(program, words)
+    began = perf_counter()
     try:
-        with asked_by_signals(), heard_by(once(lambda note: say(note, program))):
+        much, words = asked_to_tell(words)
+        with told(much), asked_by_signals(), heard_by(once(lambda note: say(note, program))):
             status = _run(program, parse, words)
             sys.stdout.flush()
+        if much == Telling.EVERYTHING:
+            say(f"version {__version__}, done in {perf_counter() - began:.1f} s.", program)
     except AskedToEnd as asked:
         with suppress(OSError):  # the terminal may be gone
             say(f"ended by {asked}; every file that was written is whole.", program)
@@ -90,33 +98,40 @@ def run_program(
     return status
 
 
-def parsed(program: str, about: str, commands: Any, arguments: Sequence[str]) -> Command:  # noqa: ANN401
+def parsed(
+    program: str, about: str, commands: Mapping[str, Any], arguments: Sequence[str]
+) -> Command:
     """Turn a command line into a command.
 
     Args:
         program: The program's name.
         about: What it is for, for its help.
-        commands: All commands, as one type.
-        arguments: The words after the name.
+        commands: All commands by name, each with its defaults.
+        arguments: The words after the program's name.
 
     Raises:
         SystemExit: After help was printed, or what is wrong with the words.
-        ValueError: A setting has a value that it refuses.
+        ValueError: The words name what there is not, or a setting has a value that it refuses.
     """
+    words = list(arguments)
+    if asks_for_help(words) and (words[0] in commands or words[0].startswith("-")):
+        tell(*page(program, about, commands, words).splitlines())
+        raise SystemExit(GOOD)
+    if not words[:1] or not words[0].startswith("--tyro-"):  # which write completions for a shell
+        words = checked(program, commands, words)
+    kinds = tuple(
+        Annotated[type(default), tyro.conf.subcommand(name, default=default)]
+        for name, default in commands.items()
+    )
     said = io.StringIO()
     try:
         with contextlib.redirect_stderr(said), without("typeguard", _trusting()):
-            command: Command = tyro.cli(
-                commands, prog=program, description=about, args=list(arguments)
-            )
+            every: Any = Union[kinds]  # noqa: UP007  # the members are known at run time only
+            command: Command = tyro.cli(every, prog=program, description=about, args=words)
     except SystemExit as leaving:
         if refusal := _refusal_behind(leaving):
             raise refusal from None
-        harmless = list(map(printable, arguments))
-        if harmless != list(arguments):  # say it again, without what a terminal would obey
-            parsed(program, about, commands, harmless)
-        else:
-            sys.stderr.write(said.getvalue())
+        sys.stderr.writelines(f"{printable(line)}\n" for line in said.getvalue().splitlines())
         raise
     return command
 
@@ -129,7 +144,8 @@ def _run(program: str, parse: Callable[[list[str]], Command], arguments: list[st
         with loading():
             command = parse(arguments)
     except SystemExit as leaving:  # help, or a command line that makes no sense
-        return leaving.code if isinstance(leaving.code, int) else USAGE
+        code = GOOD if leaving.code is None else leaving.code
+        return code if isinstance(code, int) else USAGE
     if (megapixels := getattr(command, "max_megapixels", None)) is not None:
         limit(megapixels)
     return command.run()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
-from skyline_viz.command_line.messages import UsageError, counted, tell
+from skyline_viz.command_line.messages import UsageError, counted, tell_done
 
 if TYPE_CHECKING:
     from skyline_viz.datasets import Dataset
@@ -81,4 +81,4 @@ def write(path: Path, report: Report) -> None:
 
     write_report(path, report)
     size = path.stat().st_size / 1e6
-    tell(f"{path}: {counted(len(report.photos), 'photo')}, {size:.1f} MB")
+    tell_done(f"{path}: {counted(len(report.photos), 'photo')}, {size:.1f} MB")

@@ -22,20 +22,26 @@ from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 @dataclass(frozen=True)
 class Demo:
-    """Find the skylines of the sample photos, or of yours, and show them as a gallery."""
+    """Find the skylines of the sample photos, or of yours, and show them as a gallery.
+
+    Examples:
+        skyline-viz demo
+        skyline-viz demo photos
+        skyline-viz demo photos --out gallery
+    """
 
     photos: Annotated[
         tuple[Path, ...],
         tyro.conf.Positional,
-        tyro.conf.arg(metavar="[PHOTO ...]", help_behavior_hint="(default: the sample photos)"),
+        tyro.conf.arg(metavar="PHOTO"),
     ] = ()
-    """Photos, folders of photos, or data sets."""
+    """Photos, folders of photos, or data sets; the sample photos unless given."""
 
     out: Folder = Path("skyline-demo")
     """Folder of the gallery; without a display, a picture of it goes there, too."""
 
     methods: MethodOptions = field(default_factory=Methods)
-    """What detects; our detector with its default settings unless given."""
+    """What detects, one method; our detector with its default settings unless given."""
 
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""

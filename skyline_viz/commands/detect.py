@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from skyline_viz.command_line.inputs import NO_PHOTOS, collect, output_folder
-from skyline_viz.command_line.messages import UsageError, counted, status_after, tell
+from skyline_viz.command_line.messages import (
+    UsageError,
+    counted,
+    status_after,
+    tell,
+    tell_done,
+)
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.run_record import RECORD, Beginning
 from skyline_viz.command_line.settings import Folder, Switch
@@ -26,22 +32,33 @@ from skyline_viz.running.photo_table import (
 )
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 from skyline_viz.system.names import columns_of, padded, shortened
+from skyline_viz.system.notes import note
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.method import Method
+    from skyline_viz.skyline import Skyline
+
+_WIDEST = 100
+"""Of a line in an overlay, in pixels."""
 
 
 @dataclass(frozen=True)
 class Detect:
-    """Find the skylines of photos and write them as CSV, a line for each column."""
+    """Find the skylines of photos and write them as CSV, a line for each column.
+
+    Examples:
+        skyline-viz detect photos --out skylines
+        skyline-viz detect photos/*.jpg --overlay --mask
+        skyline-viz detect photos --config skylines/run.json --out again
+    """
 
     photos: Annotated[
         tuple[Path, ...],
         tyro.conf.Positional,
-        tyro.conf.arg(metavar="PHOTO [PHOTO ...]", help_behavior_hint="(required)"),
+        tyro.conf.arg(metavar="PHOTO"),
     ]
     """Photos, folders of photos, or data sets."""
 
@@ -50,13 +67,16 @@ class Detect:
     margin, small where the line is unsure; skylines.csv, how sure each photo is; run.json."""
 
     methods: MethodOptions = field(default_factory=Methods)
-    """What detects; our detector with its default settings unless given."""
+    """What detects, one method; our detector with its default settings unless given."""
 
     mask: Switch = False
     """Also write NAME-mask.png: 0 is sky, 255 terrain."""
 
     overlay: Switch = False
-    """Also write NAME-overlay.jpg: the photo with its skyline."""
+    """Also write NAME-overlay.jpg: the photo with its skyline, and its truth where it has one."""
+
+    overlay_width: Annotated[int, tyro.conf.arg(metavar="PIXELS")] = 0
+    """Width of the skyline in an overlay; 0 takes what is seen well, 1 hides no ridge."""
 
     json: Switch = False
     """Also write NAME.json: the skyline as JSON."""
@@ -71,6 +91,12 @@ class Detect:
         """Detect all photos; return the exit status."""
         if not self.photos:
             raise UsageError(NO_PHOTOS)
+        if not 0 <= self.overlay_width <= _WIDEST:
+            raise UsageError(
+                f"--overlay-width is from 0 to {_WIDEST} pixels, not {self.overlay_width}."
+            )
+        if self.overlay_width and not self.overlay:
+            raise UsageError("--overlay-width is that of --overlay, which is not asked for.")
         began = Beginning.now()
         inputs = collect(self.photos, taken=(Path(TABLE).stem, Path(RECORD).stem))
         detector = self.methods.one()
@@ -86,7 +112,7 @@ class Detect:
                 rows.append(_failed(photo, outcome))
                 continue
             rows.append(outcome.row)
-            tell(outcome.line(wide))
+            tell_done(outcome.line(wide))
             if outcome.doubt:
                 tell(f"{shortened(photo.name)}: {outcome.doubt}")
         write_table(self.out / TABLE, rows)
@@ -96,7 +122,7 @@ class Detect:
 
     def _options(self) -> dict[str, object]:
         """What else was chosen, for the record of the run."""
-        names = ("mask", "overlay", "json", "workers", "max_megapixels")
+        names = ("mask", "overlay", "overlay_width", "json", "workers", "max_megapixels")
         return {"out": str(self.out), **{name: getattr(self, name) for name in names}}
 
 
@@ -140,7 +166,9 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
             write_photo(files[-1], (~line.to_mask(height)).astype(np.uint8) * np.uint8(255))
         if options.overlay:
             files.append(path.with_name(f"{photo.name}-overlay.jpg"))
-            write_photo(files[-1], draw_overlay(pixels, line))
+            truth = _truth_of(photo, line.width)
+            picture = draw_overlay(pixels, line, truth, thick=options.overlay_width or None)
+            write_photo(files[-1], picture)
     seen = found.visibility
     row = PhotoRow(
         photo.name,
@@ -155,6 +183,24 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
     return _Found(row, tuple(files), seen.doubt if seen else "")
 
 
+def _truth_of(photo: NamedItem, width: int) -> Skyline | None:
+    """The truth of a photo, for its overlay; None where it has none, or none that can be read."""
+    from skyline_viz.skyline import SkylineError
+
+    try:
+        truth = photo.item.truth()
+    except SkylineError as error:
+        note(f"{photo.name}-overlay.jpg is without a truth: {error}")
+        return None
+    if truth is not None and truth.width != width:
+        note(
+            f"{photo.name}-overlay.jpg is without a truth: that is of {truth.width} columns, and "
+            f"the photo of {width}."
+        )
+        return None
+    return truth
+
+
 def _failed(photo: NamedItem, failure: Failure) -> PhotoRow:
     """What there is to know of a photo that failed."""
     path = photo.item.photo_path
@@ -166,8 +212,12 @@ def _sum_up(out: Path, rows: Sequence[PhotoRow], wide: int) -> None:
     good = [row for row in rows if not row.error]
     if len(good) < 2:
         return
-    tell(f"{counted(len(good), 'skyline')} in {out}; {TABLE} says how sure each is, {RECORD} how")
-    tell("Look at these first:")
+    if odd := [shortened(row.name) for row in good if row.case not in ("", "skyline")]:
+        tell(f"{counted(len(odd), 'photo')} may show no skyline, or a part of one: {listed(odd)}")
+    tell_done(
+        f"{counted(len(good), 'skyline')} in {out}; {TABLE} says how sure each is, {RECORD} how"
+    )
+    tell_done("Look at these first:")
     for row in look_first(good):
         where = f", least in columns {row.stretches}" if row.stretches else ""
-        tell(f"  {padded(shortened(row.name), wide)}  {sure(row.confidence or 0.0)}{where}")
+        tell_done(f"  {padded(shortened(row.name), wide)}  {sure(row.confidence or 0.0)}{where}")

@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+import tyro
 
 from skyline_viz import diagnosis, evaluation
-from skyline_viz.command_line.messages import UsageError, counted, say, status_after, tell
+from skyline_viz.command_line.messages import (
+    UsageError,
+    counted,
+    say,
+    status_after,
+    tell,
+    tell_done,
+)
 from skyline_viz.command_line.on_truth import OnTruth
 from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder, Switch
 from skyline_viz.system.memory import RECORDING
+from skyline_viz.system.nearest import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,9 +31,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Diagnose(OnTruth):
-    """Say why skylines went wrong, and prove it by changing one thing and searching again."""
+    """Say why skylines went wrong, and prove it by changing one thing and searching again.
 
-    photo: str = ""
+    Examples:
+        skyline-viz diagnose hills --out causes
+        skyline-viz diagnose hills --photo tor
+        skyline-viz diagnose hills --report causes.html --no-remedies
+    """
+
+    photo: Annotated[str, tyro.conf.arg(metavar="NAME")] = ""
     """Name of one photo, to print its diagnosis in full; --out gets NAME.json and NAME.md then."""
 
     tolerance: float = 0.0
@@ -46,7 +62,9 @@ class Diagnose(OnTruth):
         check_report(self.report)
         dataset, items = self.open()
         if self.photo and self.photo not in {item.name for item in items}:
-            raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth.")
+            near = nearest(self.photo, [item.name for item in items])
+            better = f"; did you mean {near}?" if near else "."
+            raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth{better}")
         workers, kept = self.begin("diagnose", dataset, items, self.out, RECORDING)
         groups = self.folds.groups(items, workers) if self.folds.asked else None
         folds = self.folds.dealt(items, groups)
@@ -87,7 +105,7 @@ class Diagnose(OnTruth):
                 tell(*diagnosis.in_full(one).splitlines())
                 if self.out:
                     document, text = diagnosis.write_photo(self.out, name, one)
-                    tell(f"{document.name} and {text.name} in {document.parent}")
+                    tell_done(f"{document.name} and {text.name} in {document.parent}")
         else:
             self._tell_all(name, found)
         if not found:
@@ -103,4 +121,4 @@ class Diagnose(OnTruth):
             diagnosis.write_csv(self.out / "segments.csv", found)
             diagnosis.write_json(self.out / "diagnosis.json", name, found)
             diagnosis.write_picture(self.out / "causes.png", name, found)
-            tell(f"segments.csv, diagnosis.json and causes.png in {self.out}")
+            tell_done(f"segments.csv, diagnosis.json and causes.png in {self.out}")

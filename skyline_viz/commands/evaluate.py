@@ -12,7 +12,14 @@ from skyline_viz.command_line.lines import (
     open_lines,
     status_after_lines,
 )
-from skyline_viz.command_line.messages import UsageError, counted, say, tell, tell_drawn
+from skyline_viz.command_line.messages import (
+    UsageError,
+    counted,
+    say,
+    tell,
+    tell_done,
+    tell_drawn,
+)
 from skyline_viz.command_line.on_truth import OnTruth
 from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder
@@ -30,7 +37,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Evaluate(OnTruth):
-    """Compare detected skylines with the truth of a data set."""
+    """Compare detected skylines with the truth of a data set.
+
+    Examples:
+        skyline-viz evaluate hills --out results
+        skyline-viz evaluate hills --method default paper --folds 2
+        skyline-viz evaluate hills --predictions mine --report mine.html
+    """
 
     out: OptionalFolder = None
     """Folder for summary.json, photos.csv, histogram.png, error curves and the errors of columns;
@@ -85,7 +98,7 @@ class Evaluate(OnTruth):
             say(note)
         tell(*(one.said for one in evaluation.all_paired(found.results, groups)))
         if self.out:
-            tell(f"{listed(evaluation.FILES)} in {self.out}")
+            tell_done(f"{listed(evaluation.FILES)} in {self.out}")
         late = self._report(dataset, how, found, workers) if self.report else []
         return status_after_lines([*found.failures, *late], lines, len(items))
 

@@ -20,6 +20,7 @@ from skyline_viz.command_line.messages import (
     say,
     status_after,
     tell,
+    tell_done,
     tell_row,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from skyline_viz.gallery.table import ServedGallery
     from skyline_viz.method import Method
 
-FlaggedPhotos: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="PHOTO [PHOTO ...]")]
+FlaggedPhotos: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="PHOTO")]
 
 LOOK_EVERY = 0.5
 """Seconds between two looks at what people said about photos, and at whether to end."""
@@ -49,14 +50,20 @@ PICTURE = (1280, 840)
 
 @dataclass(frozen=True)
 class GalleryCommand:
-    """Detect a data set and show it as cards, the worst first: look inside, review, comment."""
+    """Detect a data set and show it as cards, the worst first: look inside, review, comment.
+
+    Examples:
+        skyline-viz gallery hills
+        skyline-viz gallery hills --cause "missed edge"
+        skyline-viz gallery hills --screenshot cards.png
+    """
 
     photos: Annotated[
         tuple[Path, ...],
         tyro.conf.Positional,
-        tyro.conf.arg(metavar="DATASET", help_behavior_hint="(required)"),
+        tyro.conf.arg(metavar="PHOTO"),
     ] = ()
-    """Data set, folder of photos, or photos."""
+    """Photos, folders of photos, or data sets."""
 
     out: Folder = Path("skyline-gallery")
     """Folder of the gallery: recordings, gallery.json, flags.json. What is there is not redone."""
@@ -158,7 +165,7 @@ def build(
             failures.append(outcome)
         else:
             entries.append(outcome)
-    tell(f"{counted(len(entries), 'photo')} in {out}")
+    tell_done(f"{counted(len(entries), 'photo')} in {out}")
     known = {one.name: one.seen for one in entries if one.verdict.a_err is not None}
     for note in seen_notes(method.name, known, folds=True):
         say(note)
@@ -197,7 +204,7 @@ def show_picture(out: Path, entries: Sequence[Entry], path: Path, cause: str = "
 
     with _served(out, entries, cause) as gallery:
         save_picture(gallery.address, path, PICTURE)
-    tell(str(path))
+    tell_done(str(path))
 
 
 def change_flags(
@@ -222,7 +229,7 @@ def change_flags(
     if not entries:
         raise UsageError(
             f"{out} holds no photos, or those of an earlier version; bring it up to date first: "
-            f"skyline-viz gallery DATASET --out {out}"
+            f"skyline-viz gallery PHOTO... --out {out}"
         )
     files = gone | {entry.name: entry.photo for entry in entries}
     done, undone = flags.find_names(flag, files), flags.find_names(unflag, files)

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
-from skyline_viz import evaluation
-from skyline_viz.command_line.inputs import NO_PHOTOS, collect, with_truth
+from skyline_viz.command_line.inputs import NO_PHOTOS, collect
 from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
@@ -22,6 +21,7 @@ from skyline_viz.command_line.messages import (
     say,
     status_after,
     tell,
+    tell_done,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.reporting import ReportFile, check_report
@@ -53,7 +53,6 @@ if TYPE_CHECKING:
 
     from skyline_viz.datasets.layouts import DatasetItem
     from skyline_viz.datasets.named_item import NamedItem
-    from skyline_viz.detector import Detector
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Method
     from skyline_viz.viewer.contents import Contents, Fidelity
@@ -61,12 +60,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Inspect:
-    """Look at every stage of photos in the viewer: edges, tensor, scores, cost, path."""
+    """Look at every stage of photos in the viewer: edges, tensor, scores, cost, path.
+
+    Examples:
+        skyline-viz inspect photo.jpg
+        skyline-viz inspect photo.jpg --truth mask.png --method default paper
+        skyline-viz inspect photo.jpg --report photo.html
+    """
 
     photos: Annotated[
         tuple[Path, ...],
         tyro.conf.Positional,
-        tyro.conf.arg(metavar="PHOTO [PHOTO ...]", help_behavior_hint="(required)"),
+        tyro.conf.arg(metavar="PHOTO"),
     ]
     """Photos, folders of photos, or data sets; several share one recording, a photo a step."""
 
@@ -207,7 +212,9 @@ class Inspect:
         if self.sweep and not isinstance(first, Detector):
             raise UsageError(f"--sweep changes the settings of our detector, not {first.name}.")
         if self.sweep_training and isinstance(first, Detector):
-            sizes = self._train_sizes(inputs[0], first, failures)
+            dataset = self.truths.open(self.sweep_training)
+            sizes, failed = inspect_more.train_sizes(dataset, inputs[0], first)
+            failures += failed
         if len(others) == 1:
             return _Using(first, others[0], sizes, [])
         return _Using(first, None, sizes, others)
@@ -256,7 +263,7 @@ class Inspect:
                             contents = contents or logged
                         except of_a_photo as problem:
                             failures.append(Failure(one.name, sentence(problem)))
-                        bar.advance()
+                        bar.advance(one.name)
                     self._lay_out(recording, contents)
                     files.append(file)
         return [file for file in files if file.exists()]
@@ -316,8 +323,8 @@ class Inspect:
             tell(f"{one.name}: {parting_words.said(beside.parting)}")
         if found.visibility and found.visibility.doubt:
             tell(f"{one.name}: {found.visibility.doubt}")
-        if diagnosis and diagnosis.right:
-            tell(*diagnosis.said_right.splitlines())
+        if diagnosis:
+            tell(*diagnosis.said.splitlines())
         return Contents.of(
             found,
             fidelity,
@@ -330,20 +337,6 @@ class Inspect:
             other_lines=others,
             swept=sweeps[0].timeline if sweeps else "",
         )
-
-    def _train_sizes(
-        self, one: NamedItem, detector: Detector, failures: list[Failure]
-    ) -> list[FilterBank]:
-        """Filter banks of all sizes, learned from a data set without the photo."""
-        assert self.sweep_training is not None
-        dataset = self.truths.open(self.sweep_training)
-        own = one.item.photo_path.resolve()
-        others = [item for item in with_truth(dataset) if item.photo_path.resolve() != own]
-        if not others:
-            raise UsageError(f"{dataset.name} holds no photo with a truth but {one.name} itself.")
-        banks, failed = evaluation.train_sizes(others, detector.training, dataset=dataset.name)
-        failures += failed
-        return banks
 
     def _with_truth(self, one: NamedItem) -> DatasetItem:
         """A photo with the truth that was given, or its own."""
@@ -364,7 +357,7 @@ class Inspect:
         from skyline_viz.viewer.program import process as viewer
 
         if self.headless:
-            tell(f"{counted(len(files), 'recording')} made.")
+            tell_done(f"{counted(len(files), 'recording')} made.")
         elif self.save:
             tell(f"Look at it with: rerun {self.save}")
         elif self.screenshot:
@@ -372,7 +365,7 @@ class Inspect:
             for file in files:
                 several = f"-{file.stem}" if len(files) > 1 else ""
                 for picture in viewer.save_pictures(file, self.screenshot, several, window):
-                    tell(str(picture))
+                    tell_done(str(picture))
         elif self.connect:
             viewer.send(files, self.connect)
         elif self.serve:

@@ -6,20 +6,26 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from skyline_viz.command_line.messages import say, tell
+from skyline_viz import evaluation
+from skyline_viz.command_line.inputs import with_truth
+from skyline_viz.command_line.messages import UsageError, say, tell
 from skyline_viz.running.progress import ProgressBar
 
 if TYPE_CHECKING:
     import rerun as rr
 
     from skyline_viz.arrays import U8
+    from skyline_viz.datasets.layouts import Dataset
+    from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.detection import Detection
+    from skyline_viz.detector import Detector
     from skyline_viz.diagnosis.diagnosing import Diagnosis
     from skyline_viz.diagnosis.sweep import Sweep
     from skyline_viz.evaluation.verdict import Verdict
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.filter_detection import FilterDetection
     from skyline_viz.method import Method
+    from skyline_viz.running.batch import Failure
     from skyline_viz.skyline import Skyline
     from skyline_viz.viewer.contents import Fidelity, MethodContents
 
@@ -86,6 +92,21 @@ def log_methods(
     others = [method.detect(found.photo) for method in methods]
     log_them(recording, found, others, truth, fidelity)
     return tuple(MethodContents.of(one) for one in others)
+
+
+def train_sizes(
+    dataset: Dataset, one: NamedItem, detector: Detector
+) -> tuple[list[FilterBank], list[Failure]]:
+    """Filter banks of all sizes, learned from a data set without the photo, and what failed.
+
+    Raises:
+        UsageError: The data set holds no other photo with a truth.
+    """
+    own = one.item.photo_path.resolve()
+    others = [item for item in with_truth(dataset) if item.photo_path.resolve() != own]
+    if not others:
+        raise UsageError(f"{dataset.name} holds no photo with a truth but {one.name} itself.")
+    return evaluation.train_sizes(others, detector.training, dataset=dataset.name)
 
 
 def begin_sweeps(

@@ -11,7 +11,7 @@ import tyro
 
 from skyline_viz import rendering
 from skyline_viz.command_line.inputs import output_folder
-from skyline_viz.command_line.messages import GOOD, UsageError, counted, tell
+from skyline_viz.command_line.messages import GOOD, UsageError, counted, tell_done
 from skyline_viz.command_line.settings import Folder
 from skyline_viz.running.progress import ProgressBar
 
@@ -21,12 +21,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Render:
-    """Render mountain scenes with exact truth: the samples, byte for byte, or others."""
+    """Render mountain scenes with exact truth: the samples, byte for byte, or others.
+
+    Examples:
+        skyline-viz render --out samples
+        skyline-viz render --kind hazy snow --count 8 --out scenes
+        skyline-viz render --kind all --camera any --seed 7 --out scenes
+    """
 
     out: Folder = Path("sample_data")
     """Folder for images/NAME.jpg and masks/NAME.png (0 is sky, 255 terrain)."""
 
-    kind: Annotated[tuple[str, ...], tyro.conf.arg(metavar="KIND [KIND ...]")] = ()
+    kind: Annotated[tuple[str, ...], tyro.conf.arg(metavar="KIND")] = ()
     """Kinds of scenes, or all, to render others than the samples; a wrong one gets the list."""
 
     seed: int = 1
@@ -64,9 +70,9 @@ class Render:
         total = len(kinds) * self.count if kinds else len(rendering.SAMPLES)
         count = 0
         for path in write_with_progress(scenes, self.out, total):
-            tell(str(path))
+            tell_done(str(path))
             count += 1
-        tell(f"{counted(count, 'scene')} in {self.out}")
+        tell_done(f"{counted(count, 'scene')} in {self.out}")
         return GOOD
 
 
@@ -80,5 +86,5 @@ def write_with_progress(scenes: Iterable[Scene], folder: Path, total: int) -> It
     """
     with ProgressBar(total, "scenes") as bar:
         for path in rendering.write_scenes(scenes, folder):
-            bar.advance()
+            bar.advance(path.stem)
             yield path

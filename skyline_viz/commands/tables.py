@@ -18,6 +18,8 @@ from skyline_viz.command_line.messages import (
     say,
     status_after,
     tell,
+    tell_done,
+    tell_drawn,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import Folder, Switch
@@ -37,12 +39,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Tables:
-    """Measure the paper's Tables I to VI on data sets, with the published rows beside them."""
+    """Measure the paper's Tables I to VI on data sets, with the published rows beside them.
+
+    Examples:
+        skyline-viz tables hills
+        skyline-viz tables hills dunes --out tables --no-studies
+        skyline-viz tables hills --method default edges --folds 5
+    """
 
     datasets: Annotated[
         tuple[Path, ...],
         tyro.conf.Positional,
-        tyro.conf.arg(metavar="DATASET [DATASET ...]", help_behavior_hint="(required)"),
+        tyro.conf.arg(metavar="DATASET"),
     ]
     """Folders of data sets with truths, in a published layout or plain."""
 
@@ -50,7 +58,7 @@ class Tables:
     """Folder for tables.md, tables.tex and the files of `evaluate`; made where it is missing."""
 
     methods: MethodOptions = field(default_factory=Methods)
-    """The methods; all that are known unless given."""
+    """The methods; all that are known unless given. They are trained anew, so no trained file."""
 
     truths: TruthOptions = field(default_factory=Truths)
     """How to read masks that leave a choice."""
@@ -142,8 +150,8 @@ class Tables:
             evaluation.write_evaluation(folder, found, about={"dataset": name}, title=title)
 
     def _write_tables(self, tables: list[Table]) -> None:
-        page = evaluation.markdown(tables)
-        write_text(self.out / "tables.md", page)
+        write_text(self.out / "tables.md", evaluation.markdown(tables))
         write_text(self.out / "tables.tex", evaluation.latex(tables))
-        tell(*page.splitlines())
-        tell(f"tables.md, tables.tex, {listed(evaluation.FILES)} in {self.out}")
+        tell_drawn(*evaluation.measured_only(tables), width=110)
+        tell(f"Published rows and notes are beside them in {self.out / 'tables.md'}.")
+        tell_done(f"tables.md, tables.tex, {listed(evaluation.FILES)} in {self.out}")

@@ -10,7 +10,14 @@ import tyro
 
 from skyline_viz import evaluation
 from skyline_viz.command_line.inputs import output_folder, with_truth
-from skyline_viz.command_line.messages import GOOD, UsageError, counted, status_after, tell
+from skyline_viz.command_line.messages import (
+    GOOD,
+    UsageError,
+    counted,
+    status_after,
+    tell,
+    tell_done,
+)
 from skyline_viz.command_line.settings import Preset, RunFile
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
@@ -24,17 +31,24 @@ if TYPE_CHECKING:
 
     from skyline_viz.datasets.layouts import DatasetItem
     from skyline_viz.detector import Detector
+    from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Configurable
 
 
 @dataclass(frozen=True)
 class Train:
-    """Learn our filters, or another method, from photos with truth."""
+    """Learn our filters, or another method, from photos with truth.
+
+    Examples:
+        skyline-viz train hills --out bank.npz
+        skyline-viz train hills dunes --out bank.npz --training.filter-size 9
+        skyline-viz train hills --method svm-dcsi --out svm.npz
+    """
 
     datasets: Annotated[
         tuple[Path, ...],
         tyro.conf.Positional,
-        tyro.conf.arg(metavar="DATASET [DATASET ...]", help_behavior_hint="(required)"),
+        tyro.conf.arg(metavar="DATASET"),
     ]
     """Folders of data sets with truths, in a published layout or plain; each counts alike,
     whatever the number of its photos."""
@@ -147,7 +161,7 @@ class Train:
         tell(f"photos used  {used} of {photos}")
         if nothing := sum(map(len, sets.values())) - len(failures) - used:
             tell(f"left out     {counted(nothing, 'photo')} whose truth shows no line")
-        tell(f"written      {self.out}, {self.out.stat().st_size:,} bytes")
+        tell_done(f"written      {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
 
     def _train_ours(
@@ -171,14 +185,14 @@ class Train:
         trained.save(self.out)
         tell(f"photos used   {bank.provenance.images} of {photos} in {bank.provenance.dataset}")
         tell(f"samples       {bank.samples.sum():,}, flipped ones included")
-        tell(f"starved bins  {bank.starved.sum()} of {counted(bank.bins.count, 'bin')}")
+        tell(f"starved bins  {_starved(bank, training)}")
         tell(f"filters       {bank.size} x {bank.size} pixels")
         tell(f"settings      {training.detector.name}")
         tell(
             f"learned with  reach {training.reach}, smoothness {training.smoothness:g}, "
             f"pooling {training.pooling:g}"
         )
-        tell(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
+        tell_done(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
 
     def _pretrained(self, method: Configurable) -> Configurable:
@@ -206,5 +220,16 @@ class Train:
         trained = Trained(dataset, len(items), self.seed, seen)
         save_method(fitted, self.out, trained)
         tell(f"{method.name}, trained on {counted(len(items), 'photo')} of {dataset}")
-        tell(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
+        tell_done(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
         return GOOD
+
+
+def _starved(bank: FilterBank, training: TrainingConfig) -> str:
+    """How many bins have learned from few samples, and what that means for their filters."""
+    from skyline_viz.filter_bank import STARVED_SAMPLES
+
+    said = f"{bank.starved.sum()} of {counted(bank.bins.count, 'bin')}"
+    if not bank.starved.any():
+        return said
+    lean = "lean on the others of their orientation" if training.pooling else "are used as they are"
+    return f"{said} had under {STARVED_SAMPLES} samples, which is usual; they {lean}"

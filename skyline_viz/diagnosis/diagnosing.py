@@ -169,6 +169,20 @@ class Diagnosis:
         """That it is right, in a sentence."""
         return f"Right: no column is off by more than {self.tolerance:.3g} px."
 
+    @property
+    def said(self) -> str:
+        """That it is right, or where it is most wrong and why, in a sentence."""
+        if self.right:
+            return self.said_right
+        one, *others = self.by_error
+        first, last = one.columns
+        stretches = "stretch is" if len(others) == 1 else "stretches are"
+        more = f"; {len(others)} more {stretches} wrong" if others else ""
+        return (
+            f"Wrong: columns {first} to {last}, by {one.mean_error:.1f} px in the mean, "
+            f"{one.title}{more}."
+        )
+
     def document(self) -> dict[str, Any]:
         """Everything but the lines, for JSON."""
         left_out = ("line", "trials", "findings")

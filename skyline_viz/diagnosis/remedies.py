@@ -60,6 +60,11 @@ def try_remedies(detection: Detection, truth: Skyline, found: Diagnosis) -> tupl
     return tuple(remedy for remedy, _ in _tried(detection, truth, found))
 
 
+def ranked(remedies: Sequence[Remedy]) -> list[Remedy]:
+    """Remedies of a photo, that first with which its error is smallest."""
+    return sorted(remedies, key=lambda one: one.a_err)
+
+
 def best(remedies: Sequence[Remedy]) -> Remedy | None:
     """The one with the smallest error, if any makes it smaller."""
     found = min(remedies, key=lambda one: one.a_err, default=None)

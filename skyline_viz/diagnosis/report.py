@@ -9,13 +9,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
-import numpy as np
 from rich.table import Table
 
-from skyline_viz.diagnosis.by_cause import Mended, by_cause, over_all
+from skyline_viz.diagnosis.by_cause import Mended, by_cause
 from skyline_viz.diagnosis.edges_anew import FACTORS
 from skyline_viz.diagnosis.record import Diagnosed
-from skyline_viz.diagnosis.remedies import best
+from skyline_viz.diagnosis.remedies import best, ranked
+from skyline_viz.diagnosis.worth import worths
 from skyline_viz.evaluation.terminal import drawn
 from skyline_viz.files import replacing, write_text
 from skyline_viz.system.names import printable
@@ -47,27 +47,28 @@ def table(found: Sequence[Diagnosed]) -> str:
 def remedies_table(found: Sequence[Diagnosed]) -> str:
     """Other settings, tried on all photos: those that help, and the best one of each cause."""
     total = sum(len(one.diagnosis.segments) for one in found)
-    tried = over_all(found)
+    tried = worths(found)
     if not total or not tried:
         return ""
-    sums = [
-        (
-            name,
-            sum(one.repaired for one in remedies),
-            sum(one.broken for one in remedies),
-            float(np.mean([one.change for one in remedies])),
-        )
-        for name, remedies in tried.items()
-    ]
-    sums.sort(key=lambda one: (one[2] - one[1], one[3]))
     rows = [
-        [name, f"{good} of {total}", str(bad), f"{change:+.2f} px"]
-        for name, good, bad, change in sums
+        [
+            one.name,
+            f"{one.change:+.2f} px",
+            str(one.saved),
+            str(one.lost),
+            f"{one.repaired} of {total}",
+            str(one.broken),
+        ]
+        for one in tried
     ]
-    head = ["setting", "repairs", "breaks", "A_err changes by"]
-    lines = ["What would help, tried on all photos", _drawn(head, rows)]
-    if not any(good for _, good, _, _ in sums):
-        lines.append("None of these helps: no wrong segment is repaired.")
+    head = ["setting", "A_err", "gross mended", "made", "repairs", "breaks"]
+    lines = [
+        "What would help, tried on all photos: change of their mean A_err, gross misses that are",
+        "none then and that are made, wrong segments that are repaired and broken",
+        _drawn(head, rows),
+    ]
+    if all(one.change >= 0 for one in tried):
+        lines.append("None of these helps: the mean A_err gets no smaller.")
     head = ["cause", "photos", "A_err", "best remedy", "of these", "of all", "breaks", "misses"]
     rows = [
         [one.title, str(one.photos), f"{one.a_err:.2f} px", *_helping(one.remedy)]
@@ -140,16 +141,30 @@ def _remedies_of(one: Diagnosed) -> list[str]:
     helps = best(one.remedies)
     if helps is None:
         return ["\nNo other setting that was tried helps."] if one.remedies else []
-    most = sorted(one.remedies, key=lambda remedy: remedy.a_err)[:SHOWN]
     rows = [
-        [remedy.name, f"{remedy.a_err:.2f} px", str(remedy.repaired), str(remedy.broken)]
-        for remedy in most
+        [
+            remedy.name,
+            f"{remedy.a_err:.2f} px",
+            f"{remedy.change:+.2f} px",
+            "yes" if remedy.gross_miss else "no",
+            str(remedy.repaired),
+            str(remedy.broken),
+        ]
+        for remedy in ranked(one.remedies)[:SHOWN]
         if remedy.change < 0
     ]
+    head = ["setting", "A_err", "change", "gross miss", "repairs", "breaks"]
+    return ["\nWhat would help most", _drawn(head, rows), f"For the best: add {helps.flags}"]
+
+
+def said_worth(one: Diagnosed) -> list[str]:
+    """The remedies that help a photo most, a line each, in Markdown."""
+    gross = "still a gross miss" if one.gross_miss else "a gross miss then"
     return [
-        "\nWhat would help most",
-        _drawn(["setting", "A_err", "repairs", "breaks"], rows),
-        f"For the best: add {helps.flags}",
+        f"{remedy.name}: A_err {remedy.a_err:.2f} px, {remedy.change:+.2f} px"
+        f"{f', {gross}' if remedy.gross_miss else ''}; add `{remedy.flags}`"
+        for remedy in ranked(one.remedies)[:SHOWN]
+        if remedy.change < 0
     ]
 
 
@@ -186,13 +201,14 @@ def write_json(path: str | os.PathLike[str], name: str, found: Sequence[Diagnose
             "gross_miss": one.gross_miss,
             "seen": one.seen,
             **one.diagnosis.document(),
-            "remedies": [vars(remedy) for remedy in one.remedies],
+            "remedies": [vars(remedy) for remedy in ranked(one.remedies)],
         }
         for one in found
     ]
     causes = [asdict(one) for one in by_cause(found)]
     head = {"format": "skyline-diagnosis", "version": 1, "dataset": name}
-    document = {**head, "causes": causes, "photos": photos}
+    remedies = [asdict(one) for one in worths(found)]
+    document = {**head, "causes": causes, "remedies": remedies, "photos": photos}
     write_text(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
 
 
@@ -202,7 +218,8 @@ def write_photo(folder: str | os.PathLike[str], dataset: str, one: Diagnosed) ->
     stem.parent.mkdir(parents=True, exist_ok=True)
     document, text = (stem.with_name(f"{stem.name}.{kind}") for kind in ("json", "md"))
     write_json(document, dataset, [one])
-    write_text(text, one.diagnosis.markdown(one.name).rstrip("\n") + "\n")
+    mend = [f"- {line}" for line in said_worth(one)]
+    write_text(text, one.diagnosis.markdown(one.name, mend).rstrip("\n") + "\n")
     return document, text
 
 

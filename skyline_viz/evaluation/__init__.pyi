@@ -37,6 +37,7 @@ from .tables import table_5 as table_5
 from .tables import table_6 as table_6
 from .tables_report import latex as latex
 from .tables_report import markdown as markdown
+from .tables_report import measured_only as measured_only
 from .terminal import methods_table as methods_table
 from .terminal import summary_table as summary_table
 from .terminal import worst_table as worst_table

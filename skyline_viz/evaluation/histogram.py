@@ -56,7 +56,8 @@ def write_histogram(
         figure.legend(loc="outside right upper", frameon=False, fontsize=8)
     highest = max((float(one.max()) for one in drawn.values()), default=0.0)
     axes.set_title(told_in_picture(title), parse_math=False, loc="left", fontsize=11)
-    axes.set_xlabel("$A_{err}$ (pixels)")
+    far_off = f"; magenta: {TOP} or more" if len(drawn) == 1 else ""
+    axes.set_xlabel(f"$A_{{err}}$ (pixels), in bins of one{far_off}")
     axes.set_ylabel("share of photos")
     axes.set_xticks([*range(TOP), TOP + 0.5], [*map(str, range(TOP)), f"{TOP} or more"])
     axes.tick_params(length=0)

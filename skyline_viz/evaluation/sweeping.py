@@ -17,6 +17,7 @@ from skyline_viz.methods.finding.plugins import as_method
 from skyline_viz.methods.registry import find_method
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.warming import warm_up
+from skyline_viz.system.nearest import meant
 
 
 def sweep(
@@ -59,7 +60,7 @@ def sweep(
     known = [one.name for one in fields(start.config)]
     if setting not in known:
         refuse_gone([setting])
-        raise ValueError(f"there is no setting {setting}; there are {', '.join(known)}")
+        raise ValueError(f"there is no setting {setting}; {meant(setting, known, 'there are')}")
     detectors = {
         f"{setting}={value}": replace(start, config=_with(start.config, setting, value))
         for value in values

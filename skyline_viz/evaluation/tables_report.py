@@ -1,10 +1,13 @@
-"""Tables as Markdown and as LaTeX."""
+"""Tables as Markdown and as LaTeX, and for a terminal."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+
+import rich.table
 
 from skyline_viz.evaluation.tables import Cell, Table
+from skyline_viz.system.names import cell
 
 _ESCAPED = {one: f"\\{one}" for one in "_%&#${}"} | {one: f"${one}$" for one in "<>+|"}
 _ESCAPED |= {"\\": r"\textbackslash{}", "^": r"\textasciicircum{}", "~": r"\textasciitilde{}"}
@@ -23,6 +26,23 @@ def markdown(tables: Sequence[Table]) -> str:
         ]
         parts.append("\n".join([*lines, *(f"\n{note}" for note in table.notes)]))
     return "\n\n".join(parts) + "\n"
+
+
+def measured_only(tables: Sequence[Table]) -> Iterator[rich.table.Table]:
+    """What was measured, for a terminal; published rows are left to the page."""
+    for table in tables:
+        rows = [row for row in table.rows if not any(map(_is_published, row))]
+        if not rows:
+            continue
+        drawn = rich.table.Table(
+            title=f"\nTable {table.number}: {table.title}", title_justify="left",
+            box=None, pad_edge=False, header_style="bold",
+        )  # fmt: skip
+        for column, heading in enumerate(table.headings):
+            drawn.add_column(heading, justify="right" if _is_number(table, column) else "left")
+        for row in rows:
+            drawn.add_row(*(cell(_shown(one)) for one in row))
+        yield drawn
 
 
 def latex(tables: Sequence[Table]) -> str:
@@ -49,10 +69,14 @@ def latex(tables: Sequence[Table]) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def _shown(cell: Cell) -> str:
-    if cell is None:
+def _shown(one: Cell) -> str:
+    if one is None:
         return ""
-    return f"{cell:.2f}" if isinstance(cell, float) else str(cell)
+    return f"{one:.2f}" if isinstance(one, float) else str(one)
+
+
+def _is_published(one: Cell) -> bool:
+    return isinstance(one, str) and one.endswith(", published")
 
 
 def _columns(table: Table) -> range:

@@ -31,14 +31,17 @@ def summary_table(summary: Summary, interval: Interval | None = None) -> Table:
 
 def worst_table(results: Sequence[PhotoResult]) -> Table:
     """Photos and where they went wrong as a table, in the order given."""
-    table = Table(title="Worst photos", title_justify="left")
+    table = Table(
+        title="Worst photos", title_justify="left", box=None, pad_edge=False, header_style="bold"
+    )
     table.add_column("photo", overflow="fold")
-    for heading in ("A_err", "largest error", "in column", "segmentation accuracy"):
-        table.add_column(heading, justify="right")
+    for heading in ("A_err", "gross", "largest", "in column", "accuracy"):
+        table.add_column(heading, justify="right", no_wrap=True)
     for one in results:
         table.add_row(
             cell(one.name),
-            f"{one.a_err:.2f} px" + (" (gross miss)" if one.gross_miss else ""),
+            f"{one.a_err:.2f} px",
+            "miss" if one.gross_miss else "",
             f"{one.worst_error:.1f} px",
             f"{one.worst_column}",
             f"{one.segmentation_accuracy:.2%}",

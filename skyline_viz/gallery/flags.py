@@ -14,6 +14,7 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from skyline_viz.gallery.documents import GalleryError, made, read_list, write_list
+from skyline_viz.system.nearest import nearest
 
 FILE = "flags.json"
 """The file's name in the folder of the gallery."""
@@ -153,7 +154,9 @@ def find_names(words: Sequence[str], files: Mapping[str, str]) -> list[str]:
     for word in words:
         meant = [word] if word in files else _named_by_file(word, files)
         if not meant:
-            raise GalleryError(f"no photo of the gallery is called {word}.")
+            near = nearest(word, files)
+            better = f"; did you mean {near}?" if near else "."
+            raise GalleryError(f"no photo of the gallery is called {word}{better}")
         if len(meant) > 1:
             raise GalleryError(f"{word} could be {' or '.join(meant)}; name one of them.")
         found[meant[0]] = None

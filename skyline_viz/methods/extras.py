@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import re
+import shlex
+import sys
 from importlib import import_module
+from importlib.metadata import PackageNotFoundError, requires
 from typing import Any, Literal
 
 from skyline_viz.method import MethodError
@@ -24,8 +28,25 @@ def needed(module: str, extra: Literal["methods", "deep"], method: str) -> Any: 
     try:
         return import_module(module)
     except ImportError as error:
-        package = (error.name or module).split(".", maxsplit=1)[0]
+        missing = (error.name or module).split(".", maxsplit=1)[0]
+        package = _INSTALLED_AS.get(missing, missing)
         raise MethodError(
-            f"{method} needs {_INSTALLED_AS.get(package, package)} to be trained; "
-            f"install it with: pip install 'skyline-viz[{extra}]'"
+            f"{method} needs {package} to be trained; install it with: "
+            f"{shlex.quote(sys.executable)} -m pip install {_wanted(package, extra)}"
         ) from error
+
+
+def _wanted(package: str, extra: str) -> str:
+    """A package in the versions that an extra of ours wants, for a shell.
+
+    It is named itself: "skyline-viz[...]" can only be installed where a copy of it lies.
+    """
+    begins = re.compile(rf"{re.escape(package)}(?![\w.-])[^;]*")
+    try:
+        wanted = requires("skyline-viz") or []
+    except PackageNotFoundError:  # it is not installed itself
+        wanted = []
+    for one in wanted:
+        if f'"{extra}"' in one.replace("'", '"') and (found := begins.match(one)):
+            return shlex.quote(found[0].replace(" ", ""))
+    return package

@@ -4,7 +4,7 @@ FCN-8s, FCN-16s, FCN-32s and SegNet, with a setting for their width. At a width 
 the published size (half a gigabyte), which needs pretrained weights of VGG-16 and a GPU. The
 default, an eighth, is made for a CPU: some minutes for 40 photos, from scratch.
 
-Training needs PyTorch (``pip install 'skyline-viz[deep]'``). What has been trained is an ONNX file
+Training needs PyTorch (the extra ``deep``). What has been trained is an ONNX file
 in the model, which OpenCV runs: detecting needs nothing further.
 """
 

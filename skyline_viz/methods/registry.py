@@ -22,8 +22,9 @@ from skyline_viz.methods.finding.plugins import PluggedLearner, as_method, plug_
 from skyline_viz.methods.finding.specs import Spec, parse
 from skyline_viz.methods.names import NAMES
 from skyline_viz.methods.sky_network import SkyNetwork
+from skyline_viz.system.nearest import meant
 from skyline_viz.system.notes import note
-from skyline_viz.system.settings import from_texts, meant, name_with
+from skyline_viz.system.settings import from_texts, name_with
 
 __all__ = [
     "NAMES",

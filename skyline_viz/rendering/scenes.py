@@ -39,6 +39,7 @@ from skyline_viz.rendering.terrain import Frame
 from skyline_viz.rendering.views import View
 from skyline_viz.rendering.water import Water, draw_water
 from skyline_viz.skyline import Skyline
+from skyline_viz.system.nearest import meant
 
 CameraChoice: TypeAlias = Literal["plain", "any"]
 """The plain camera of a kind, or any, tilted or looking up, with its own lens and film."""
@@ -90,7 +91,7 @@ def render(
         ValueError: No such kind, a negative seed, or a side below 32 pixels.
     """
     if kind not in KINDS:
-        raise ValueError(f"a scene is one of {', '.join(KINDS)}, not {kind!r}")
+        raise ValueError(f"there is no scene {kind!r}; {meant(kind, KINDS, 'a scene is one of')}")
     if seed < 0:
         raise ValueError(f"a seed is 0 or more, not {seed}")
     if min(width, height) < 32:

@@ -19,15 +19,19 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from skyline_viz import __version__
 from skyline_viz.colours import ALTERNATIVE, HALO, PATH, TRUTH
 from skyline_viz.diagnosis.by_cause import by_cause
+from skyline_viz.diagnosis.record import Diagnosed
+from skyline_viz.diagnosis.worth import Worth, worths
 from skyline_viz.evaluation.results import PhotoResult, Summary
 from skyline_viz.files import write_text
 from skyline_viz.overlay import css
 from skyline_viz.reports.charts import SIZE, charts
 from skyline_viz.reports.costs import PLOT
 from skyline_viz.reports.photo_report import PhotoReport
-from skyline_viz.reports.worth import worths
 from skyline_viz.running.batch import Failure
 from skyline_viz.system.names import printable
+
+MOST_WORTHS = 8
+"""Settings that are listed, of all photos."""
 
 MOST_STAGES = 40
 """Photos whose stages are in a report: those of more would make it too large to be mailed."""
@@ -87,7 +91,7 @@ def page(report: Report) -> str:
         plot_size=PLOT,
         others=_of_others(photos, results),
         causes=by_cause(diagnosed) if diagnosed else [],
-        worths=worths(diagnosed) if len(photos) > 1 else [],
+        worths=_worth_trying(diagnosed) if len(photos) > 1 else [],
         tried=any(one.remedies for one in diagnosed),
         right=sum(one.diagnosis.right for one in diagnosed),
         diagnosed=len(diagnosed),
@@ -99,6 +103,11 @@ def page(report: Report) -> str:
         script=script,
         policy=policy(style, script),
     )  # fmt: skip
+
+
+def _worth_trying(diagnosed: Sequence[Diagnosed]) -> list[Worth]:
+    """The settings that make the mean error smaller, that which does most first."""
+    return [one for one in worths(diagnosed) if one.change < 0][:MOST_WORTHS]
 
 
 def policy(style: str, script: str) -> str:

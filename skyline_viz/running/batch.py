@@ -96,8 +96,8 @@ def run(
     else:
         outcomes = _in_processes(function, tasks, workers)
     with ProgressBar(len(tasks), title) as bar, contextlib.closing(outcomes):
-        for outcome in outcomes:
-            bar.advance()
+        for number, outcome in enumerate(outcomes):
+            bar.advance(tasks[number].name)
             yield outcome
 
 

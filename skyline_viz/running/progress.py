@@ -5,6 +5,9 @@ import threading
 from time import perf_counter
 from typing import TYPE_CHECKING, Self
 
+from skyline_viz.system.names import printable
+from skyline_viz.system.telling import Telling, telling
+
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
@@ -19,7 +22,8 @@ class ProgressBar:
     """A bar on stderr, once the work has taken a while; a line a minute where that is no terminal.
 
     Lines that are printed meanwhile appear above it. Work behind somebody's back, in another thread
-    than the first, has none.
+    than the first, has none. With ``--verbose`` there is a line for each photo instead, and with
+    ``--quiet`` nothing.
     """
 
     def __init__(self, total: int, title: str) -> None:
@@ -36,11 +40,18 @@ class ProgressBar:
         if self._shown:
             self._shown[0].stop()
 
-    def advance(self) -> None:
-        """Count one more photo."""
+    def advance(self, what: str = "") -> None:
+        """Count one more photo.
+
+        Args:
+            what: Its name.
+        """
         self._done += 1
         now = perf_counter()
-        if self._shown is None and self._done < self._total and _is_first_thread():
+        much = telling() if _is_first_thread() else Telling.RESULTS
+        if much == Telling.EVERYTHING:
+            self._tell_one(now - self._began, what)
+        elif self._shown is None and self._done < self._total and much == Telling.USUAL:
             if sys.stderr.isatty():
                 if now - self._began < PROGRESS_AFTER:
                     return
@@ -51,6 +62,12 @@ class ProgressBar:
         if self._shown:
             progress, task = self._shown
             progress.update(task, completed=self._done)
+
+    def _tell_one(self, seconds: float, what: str) -> None:
+        """Write a line about a photo that is done."""
+        named = f": {printable(what)}" if what else ""
+        done = f"{self._done} of {self._total} {self._title} after {seconds:.1f} s{named}"
+        print(done, file=sys.stderr, flush=True)
 
     def _tell(self, seconds: float) -> None:
         """Write a line into a log."""

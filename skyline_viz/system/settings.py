@@ -6,8 +6,7 @@ its presets and by what differs from it, as in ``paper:delta=4,link_weight=0.1``
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from numbers import Integral, Real
 from pathlib import Path
@@ -23,6 +22,8 @@ from typing import (
     get_origin,
     get_type_hints,
 )
+
+from skyline_viz.system.nearest import meant
 
 MOST = 1_000_000
 """Largest value of a setting that names no range: pixels, costs, epochs."""
@@ -127,16 +128,6 @@ def from_texts(texts: Mapping[str, str], kinds: Mapping[str, object], of: str) -
     return {name: _from_text(text, kinds[name]) for name, text in texts.items()}
 
 
-def meant(word: str, known: Iterable[str], among: str) -> str:
-    """What somebody may have meant by an unknown word, or what there is.
-
-    >>> meant("detla", ["delta", "v"], "there are"), meant("x", ["delta", "v"], "there are")
-    ('did you mean delta?', 'there are delta, v.')
-    """
-    near = difflib.get_close_matches(word, list(known), n=1)
-    return f"did you mean {near[0]}?" if near else f"{among} {', '.join(known) or 'none'}."
-
-
 def from_document(value: object, kind: object) -> object:
     """A value as JSON keeps it, in the type that its setting has."""
     if get_origin(kind) is tuple and isinstance(value, list):
@@ -220,7 +211,7 @@ class Configured:
         changes: dict[str, Any] = {}
         for name, value in values.items():
             if name not in known:
-                raise SettingError(f"there is no setting {name}")
+                raise SettingError(f"there is no setting {name}; {meant(name, known, 'there are')}")
             kind, _, limits = known[name]
             changes[name] = from_document(value, kind)
             check_kind(name, changes[name], kind, *limits)

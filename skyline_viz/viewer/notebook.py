@@ -5,7 +5,7 @@
 A click on a pixel asks the running Python about it. Where the viewer cannot run, as on a page to
 which a notebook was exported, there is a picture of the skyline in its place.
 
-Needs the extra ``notebook``: ``pip install "skyline-viz[notebook]"``.
+Needs the extra ``notebook``: ``pip install "rerun-sdk[notebook]"``.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def show_detection(
         TypeError: Settings are to be swept of a method that has none of ours.
     """
     if not rrn.HAS_NOTEBOOK:
-        raise ImportError('viewers in notebooks need: pip install "skyline-viz[notebook]".')
+        raise ImportError('viewers in notebooks need: pip install "rerun-sdk[notebook]".')
     ours = detection if isinstance(detection, FilterDetection) else None
     if sweep and ours is None:
         raise TypeError(f"a sweep changes the settings of our detector, not {detection.method}.")

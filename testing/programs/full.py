@@ -30,7 +30,7 @@ def run(
 
 COMMANDS = {
     "detect": (100, "detect DATA --out OUT", ".csv"),
-    "detect --json": (1700, "detect DATA --out OUT --json", ".json"),
+    "detect --json": (3000, "detect DATA --out OUT --json", ".json"),
     "detect with workers": (100, "detect DATA --out OUT --workers 2", ".csv"),
     "evaluate": (100, "evaluate DATA --out OUT", ".json"),
     "evaluate, at the end": (2000, "evaluate DATA --out OUT", "histogram.png"),

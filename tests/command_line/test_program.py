@@ -2,10 +2,8 @@
 
 import signal
 from dataclasses import dataclass
-from typing import Annotated
 
 import pytest
-import tyro
 
 from skyline_viz import __version__
 from skyline_viz.command_line.messages import (
@@ -19,6 +17,7 @@ from skyline_viz.command_line.program import parsed, run_program
 from skyline_viz.photo import PhotoError
 from skyline_viz.system.endings import AskedToEnd
 from skyline_viz.system.notes import note
+from skyline_viz.system.telling import Telling, telling
 
 
 @dataclass(frozen=True)
@@ -45,11 +44,7 @@ class Fall:
 
 
 def parse(arguments):
-    kinds = (
-        Annotated[Jump, tyro.conf.subcommand("jump", default=Jump())],
-        Annotated[Fall, tyro.conf.subcommand("fall", default=Fall())],
-    )
-    return parsed("prog", "Moves.", kinds[0] | kinds[1], arguments)
+    return parsed("prog", "Moves.", {"jump": Jump(), "fall": Fall()}, arguments)
 
 
 def doing(what):
@@ -73,13 +68,49 @@ def test_the_version_needs_no_parsing(capsys):
     assert capsys.readouterr().out == f"prog {__version__}\n"
 
 
-@pytest.mark.parametrize("words", [["hop"], ["jump", "--height", "far"], []])
-def test_words_that_make_no_sense_are_a_usage_error(words, capsys):
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["hop"],
+        ["jump", "--height", "far"],
+        [],
+        ["jump", "--quiet", "--verbose"],
+        ["-v"],
+        ["hop", "--help"],
+    ],
+)
+def test_words_that_make_no_sense_are_one_sentence(words, capsys):
     assert run_program("prog", parse, words) == USAGE
     said = capsys.readouterr()
     assert said.out == ""
-    assert "Traceback" not in said.err
-    assert said.err
+    assert said.err.startswith("prog: ")
+    assert said.err.count("\n") == 1
+
+
+@pytest.mark.parametrize("words", [["-h"], ["--help"], ["jump", "--help"], ["jump", "--help-all"]])
+def test_help_is_no_error(words, capsys):
+    assert run_program("prog", parse, words) == 0
+    said = capsys.readouterr()
+    assert said.err == ""
+    assert said.out.startswith("usage: prog")
+
+
+def test_completions_for_a_shell_are_written(capsys):
+    assert run_program("prog", parse, ["--tyro-print-completion", "bash"]) == 0
+    assert "--height" in capsys.readouterr().out
+
+
+def test_verbose_says_how_long_it_took(capsys):
+    assert run_program("prog", parse, ["jump", "--verbose"]) == 7
+    assert capsys.readouterr().err.startswith(f"prog: version {__version__}, done in ")
+
+
+def test_quiet_ends_with_the_program():
+    def work():
+        return int(telling())
+
+    assert run_program("prog", doing(work), ["--quiet"]) == Telling.RESULTS
+    assert telling() == Telling.USUAL
 
 
 def test_a_value_that_is_refused_is_one_sentence(capsys):

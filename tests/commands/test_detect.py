@@ -12,10 +12,11 @@ from PIL import Image
 
 import skyline_viz as sv
 from skyline_viz.commands import detect as detect_command
+from skyline_viz.overlay import draw_overlay
 from skyline_viz.running.photo_table import TABLE
 from skyline_viz.sky_model import SkyModel
 from testing.detections import NoSky
-from testing.programs.commands import HEIGHT, WIDTH, scene, write_scene
+from testing.programs.commands import HEIGHT, WIDTH, scene, write_scene, write_scenes
 from testing.programs.commands import files as all_files
 
 
@@ -253,3 +254,63 @@ def test_a_photo_after_the_method_is_a_photo(say, tmp_path):
     photo = write_scene(tmp_path / "in" / "a.png")
     assert say("detect", "--method", "edges", photo, "--out", "out")[0] == 0
     assert files(tmp_path / "out") == ["a.csv"]
+
+
+def test_an_overlay_shows_the_truth_where_there_is_one(say, hills, tmp_path):
+    assert say("detect", hills, "--overlay", "--out", "with")[0] == 0
+    photo, truth = scene(0)
+    found = sv.Detector().detect(photo).skyline
+    picture = sv.read_photo(tmp_path / "with" / "p0-overlay.jpg").astype(int)
+    shown, hidden = draw_overlay(photo, found, truth), draw_overlay(photo, found)
+    apart = (shown != hidden).any(axis=2)
+    assert np.abs(picture - shown)[apart].mean() < np.abs(picture - hidden)[apart].mean() / 2
+
+
+def test_an_overlay_can_hide_less(say, tmp_path):
+    photo = write_scene(tmp_path / "a.png")
+    changed = []
+    for width in ("0", "1"):
+        words = ["--overlay", "--overlay-width", width, "--out", width]
+        assert say("detect", photo, *words)[0] == 0
+        picture = sv.read_photo(tmp_path / width / "a-overlay.jpg").astype(int)
+        changed.append((np.abs(picture - scene(0)[0]).max(axis=2) > 60).sum())
+    assert changed[1] < changed[0] / 2
+
+
+def test_a_truth_that_is_damaged_costs_no_overlay(say, tmp_path):
+    own = write_scenes(tmp_path / "own", 1)
+    (own / "masks" / "p0.csv").write_text("column,row,visible\n0,x,1\n")
+    status, _, err = say("detect", own, "--overlay", "--out", "out")
+    assert status == 0
+    assert "p0-overlay.jpg is without a truth: " in err
+    assert (tmp_path / "out" / "p0-overlay.jpg").is_file()
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--overlay-width", "2"], "--overlay-width is that of --overlay, which is not asked for."),
+        (["--overlay", "--overlay-width", "-1"], "--overlay-width is from 0 to 100 pixels, not -1"),
+    ],
+)
+def test_widths_of_overlays_that_are_none(say, hills, words, told):
+    status, _, err = say("detect", hills, *words)
+    assert status == 2
+    assert told in err
+
+
+def test_quiet_prints_nothing_where_all_is_well(say, hills):
+    assert say("detect", hills, "--quiet") == (0, "", "")
+
+
+def test_verbose_names_each_photo_as_it_is_done(say, hills):
+    status, _, err = say("detect", hills, "--verbose")
+    assert status == 0
+    assert re.search(r"^2 of 4 photos after \d+\.\d s: p1$", err, re.MULTILINE)
+
+
+def test_photos_that_may_show_no_skyline_are_named_at_the_end(say, hills, tmp_path, monkeypatch):
+    monkeypatch.setattr(SkyModel, "sky", NoSky.sky)
+    status, out, _ = say("detect", hills, "--out", "out", "--quiet")
+    assert status == 0
+    assert "4 photos may show no skyline, or a part of one: p0, p1, p2, p3\n" in out

@@ -23,7 +23,7 @@ def test_a_cause_that_there_is_not(say, hills, tmp_path):
     words = ["gallery", hills, "--out", "g", "--screenshot", "a.png", "--cause"]
     status, out, err = say(*words, "fog")
     assert (status, out) == (2, "")
-    assert "invalid choice 'fog'" in err
+    assert "--cause cannot be fog; it is one of truth doubtful, " in err
     assert not (tmp_path / "g").exists()
     status, _, err = say(*words, "starved bin")
     assert status == 1

@@ -32,10 +32,12 @@ def test_two_data_sets_are_tables_on_one_page(say, hills, tmp_path):
     words = ["--method", "edges", "--no-studies", "--out", "out"]
     status, out, _ = say("tables", hills, other, *words)
     assert status == 0
-    assert "## Table I: " in out
+    assert "\nTable I: " in out
+    assert "##" not in out
+    assert "published" not in out.partition("Published rows")[0]
     assert "hills" in out
     assert "other" in out
-    assert (tmp_path / "out" / "tables.md").read_text() in out
+    assert ", published |" in (tmp_path / "out" / "tables.md").read_text()
     assert (tmp_path / "out" / "tables.tex").is_file()
     assert {path.parent.name for path in (tmp_path / "out").rglob("photos.csv")} == {
         "hills",

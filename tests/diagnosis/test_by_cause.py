@@ -1,5 +1,7 @@
 """A diagnosed data set, cause by cause."""
 
+import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +11,7 @@ from skyline_viz.diagnosis.by_cause import by_cause, over_all
 from skyline_viz.diagnosis.diagnosing import Diagnosis, Segment
 from skyline_viz.diagnosis.record import Diagnosed
 from skyline_viz.diagnosis.remedies import Remedy
-from skyline_viz.diagnosis.report import remedies_table, table
+from skyline_viz.diagnosis.report import in_full, remedies_table, table, write_json, write_photo
 
 
 def segment(cause, error, terms=(), place=None, first=0):
@@ -106,3 +108,44 @@ def test_the_tables_say_it(found):
     assert "6.67 px" in said
     assert "What would help most of each cause" in remedies_table(found)
     assert remedies_table([photo("b", [WIRE])]) == ""
+
+
+def test_settings_are_ranked_by_what_they_are_worth(found):
+    first, *rest = [line for line in remedies_table(found).splitlines() if " px" in line][:2]
+    assert first.split() == ["off", "-2.67", "px", "1", "1", "3", "of", "3", "3"]
+    assert rest[0].split() == ["weak", "-1.00", "px", "0", "0", "3", "of", "3", "0"]
+
+
+def test_where_nothing_helps_it_is_said(found):
+    assert "None of these helps" not in remedies_table(found)
+    assert "None of these helps" in remedies_table([photo("b", [WIRE], off=(9.0, 2))])
+
+
+def test_files_have_remedies_by_what_they_are_worth(found, tmp_path):
+    write_json(tmp_path / "diagnosis.json", "hills", found)
+    document = json.loads((tmp_path / "diagnosis.json").read_text())
+    assert [one["name"] for one in document["remedies"]] == ["off", "weak"]
+    assert document["remedies"][0] == {
+        "name": "off", "change": pytest.approx(-8 / 3),
+        "saved": 1, "lost": 1, "repaired": 3, "broken": 3,
+    }  # fmt: skip
+    assert [one["name"] for one in document["photos"][1]["remedies"]] == ["weak", "off"]
+
+
+def test_one_photo_has_its_remedies_in_all_its_files(found, tmp_path):
+    assert re.search(r"off +5\.00 px +-18\.00 px +no", in_full(found[0]))
+    document, text = write_photo(tmp_path, "hills", found[0])
+    assert json.loads(document.read_text())["photos"][0]["remedies"][0]["change"] == -18
+    said = text.read_text()
+    assert "- off: A_err 5.00 px, -18.00 px; add `--off`" in said
+    assert "- weak: A_err 22.00 px, -1.00 px, still a gross miss; add `--weak`" in said
+
+
+def test_a_photo_is_said_to_be_right_or_where_it_is_most_wrong():
+    assert Diagnosis((), 4.0).said == "Right: no column is off by more than 4 px."
+    assert Diagnosis((WIRE,), 4.0).said == (
+        "Wrong: columns 50 to 59, by 30.0 px in the mean, cheaper path by strength, wire."
+    )
+    assert Diagnosis((WIRE, CLOUD), 4.0).said.endswith(
+        "by clear sky, cloud above; 1 more stretch is wrong."
+    )

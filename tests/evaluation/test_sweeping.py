@@ -35,7 +35,7 @@ def test_a_photo_that_fails_is_told_once(items, tmp_path):
 
 
 def test_settings_and_values_that_make_no_sense_are_sentences(items):
-    with pytest.raises(ValueError, match=r"there is no setting dleta; there are edge_source, low_"):
+    with pytest.raises(ValueError, match=r"there is no setting dleta; did you mean delta?"):
         sweep(items, "dleta", [1])
     with pytest.raises(ValueError, match=r"delta is a whole number from 0 to 100000, not 0\.5"):
         sweep(items, "delta", [0.5])

@@ -19,11 +19,18 @@ def test_the_tables_name_figures_and_photos():
         "6.67 px",
         "50.0% (95 % interval: 9% to 91%)",
         "Jungfrau",
-        "12.35 px (gross miss)",
+        "12.35 px   miss",
         "77",
         "0.500 s",
     ):
         assert word in text
+
+
+def test_a_photo_is_a_line_in_a_narrow_terminal():
+    worst = [result("R_GImag0001", 97.52, gross_miss=True, worst_column=1024), result("b", 1)]
+    lines = drawn(worst_table(worst), width=60).splitlines()
+    assert len(lines) == 4
+    assert lines[2].split()[:4] == ["R_GImag0001", "97.52", "px", "miss"]
 
 
 def test_a_line_for_each_method_also_where_nothing_was_found():

@@ -162,7 +162,4 @@ def test_without_a_package(items, monkeypatch, missing):
         monkeypatch.setitem(sys.modules, module, None if module == missing else sys)
     with pytest.raises(MethodError) as caught:
         make_method("cnn-dcsi-canny").fit(items)
-    assert str(caught.value) == (
-        f"cnn-dcsi-canny needs {missing} to be trained; "
-        "install it with: pip install 'skyline-viz[deep]'"
-    )
+    assert str(caught.value).startswith(f"cnn-dcsi-canny needs {missing} to be trained; install ")

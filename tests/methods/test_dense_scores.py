@@ -144,10 +144,7 @@ def test_without_scikit_learn(items, monkeypatch):
     monkeypatch.setitem(sys.modules, "sklearn.svm", None)
     with pytest.raises(MethodError) as caught:
         make_method("svm-mdcsi").fit(items)
-    assert str(caught.value) == (
-        "svm-mdcsi needs scikit-learn to be trained; "
-        "install it with: pip install 'skyline-viz[methods]'"
-    )
+    assert str(caught.value).startswith("svm-mdcsi needs scikit-learn to be trained; install it ")
 
 
 def test_packages_of_extras_are_imported_only_where_needed():

@@ -5,6 +5,7 @@ import sys
 import pytest
 
 from skyline_viz.method import MethodError
+from skyline_viz.methods import extras
 from skyline_viz.methods.extras import needed
 
 
@@ -21,4 +22,15 @@ def test_a_missing_package_is_named_with_its_extra(module, package, monkeypatch)
     with pytest.raises(MethodError) as caught:
         needed(module, "methods", "svm-dcsi")
     assert str(caught.value).startswith(f"svm-dcsi needs {package} to be trained; install it with")
-    assert "skyline-viz[methods]" in str(caught.value)
+    assert f"-m pip install {package}" in str(caught.value).replace("'", "")
+
+
+def test_the_versions_are_those_of_the_extra(monkeypatch):
+    wanted = ["numpy>=1", "torch>=2.4; extra == 'deep'", "torch-vision>=1; extra == 'methods'"]
+    monkeypatch.setattr(extras, "requires", lambda _: wanted)
+    monkeypatch.setitem(sys.modules, "torch", None)
+    monkeypatch.setattr(sys, "executable", "/a place/python")
+    with pytest.raises(MethodError, match=r"'/a place/python' -m pip install 'torch>=2\.4'$"):
+        needed("torch", "deep", "fcn-8s")
+    with pytest.raises(MethodError, match=r"pip install torch$"):
+        needed("torch", "methods", "fcn-8s")

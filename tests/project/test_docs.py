@@ -34,7 +34,7 @@ PROGRAMS = [(main, COMMANDS), (annotate.cli.main, LABELLING)]
 def help_of(program, *words) -> str:
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        assert program([*words, "--help"]) == 0
+        assert program([*words, "--help-all"]) == 0
     return said.getvalue()
 
 
@@ -53,7 +53,21 @@ def test_the_reference_lists_exactly_the_commands_there_are():
     parts = [reference.split("## Settings")[0], reference.split("## Labelling commands")[1]]
     for part, (program, commands) in zip(parts, PROGRAMS, strict=True):
         assert re.findall(r"^\| `([a-z]+)[^`]*` \|", part, re.MULTILINE) == list(commands)
-        assert set(re.findall(r"• ([a-z]+) ", help_of(program))) == set(commands)
+        assert set(re.findall(r"^  ([a-z]+) ", help_of(program), re.MULTILINE)) == set(commands)
+
+
+def test_the_reference_names_what_commands_take_as_their_help_does():
+    reference = (ROOT / "docs" / "reference.md").read_text()
+    rows = dict(re.findall(r"^\| `([a-z]+) ?([^`]*)` \|", reference, re.MULTILINE))
+    for program, commands in PROGRAMS:
+        for command in commands:
+            usage = help_of(program, command).splitlines()[0]
+            assert (
+                usage
+                == f"usage: {usage.split()[1]} {command} {rows[command]} [OPTIONS]".replace(
+                    "  ", " "
+                )
+            )
 
 
 def test_the_reference_lists_exactly_the_settings_there_are():
@@ -73,7 +87,7 @@ def test_the_reference_gives_the_defaults_of_both_presets(field):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_every_option_that_a_page_names_exists(page):
-    known = {"--version", "--tyro-print-completion"}
+    known = {"--version", "--tyro-print-completion"}  # of the program
     for program, commands in PROGRAMS:
         known |= set().union(*(options_of(program, command) for command in commands))
     named = set(re.findall(r"(?<![\w-])--[a-z][a-z.-]*[a-z*]", page.read_text()))
@@ -88,7 +102,7 @@ def test_every_option_is_named_in_the_reference():
     plain = re.compile(r"--(config|training)\.")
     for program, commands in PROGRAMS:
         for command in commands:
-            for option in options_of(program, command) - {"--help"}:
+            for option in options_of(program, command):
                 assert plain.match(option) or option in reference, (command, option)
 
 

@@ -13,7 +13,6 @@ from skyline_viz.system.settings import (
     Configured,
     SettingError,
     from_texts,
-    meant,
     nearest_name,
     spelt,
     within,
@@ -105,8 +104,3 @@ def test_a_name_says_all_settings(config):
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_numbers_are_spelt_exactly(number):
     assert float(spelt(number)) == number
-
-
-def test_what_was_meant():
-    assert meant("papr", ["default", "paper"], "there are") == "did you mean paper?"
-    assert meant("q", [], "there are") == "there are none."

@@ -126,7 +126,7 @@ def test_a_click_asks_the_running_python(shown, monkeypatch):
 def test_without_the_extra_it_says_what_to_install(monkeypatch):
     monkeypatch.setattr(rrn, "HAS_NOTEBOOK", False)
     photo = sv.read_photo(ROOT / "sample_data" / "images" / "rover-2.jpg")
-    with pytest.raises(ImportError, match=r'pip install "skyline-viz\[notebook\]"'):
+    with pytest.raises(ImportError, match=r'pip install "rerun-sdk\[notebook\]"'):
         sv.show_detection(sv.Detector().detect(photo))
 
 

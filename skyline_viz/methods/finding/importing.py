@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import Any
 
 from skyline_viz.method import MethodError
-from skyline_viz.system.settings import meant
+from skyline_viz.system.nearest import meant
 
 GROUP = "skyline_viz.methods"
 """Entry point group in which an installed package offers methods by name."""

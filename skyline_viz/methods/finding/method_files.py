@@ -26,6 +26,7 @@ from skyline_viz.methods.sky_network import SkyNetwork
 from skyline_viz.system import headed_npz
 from skyline_viz.system.fingerprints import packed, unpacked
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError, opened
+from skyline_viz.system.nearest import meant
 from skyline_viz.system.settings import SettingError, plain_number
 
 EARLIER_FORMAT, EARLIER_VERSION = "skyline-method", 1
@@ -59,7 +60,7 @@ def make_method(name: str) -> Configurable:
         MethodError: There is none of that name.
     """
     if name not in HOMES:
-        raise MethodError(f"there is no method {name}; there are {', '.join(HOMES)}.")
+        raise MethodError(f"there is no method {name}; {meant(name, HOMES, 'there are')}")
     if config := DetectorConfig.presets().get(name):
         return Detector(config=config)
     module, _, called = HOMES[name].partition(":")

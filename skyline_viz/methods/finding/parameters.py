@@ -6,6 +6,7 @@ import inspect
 from collections.abc import Mapping
 from pathlib import Path
 
+from skyline_viz.system.nearest import meant
 from skyline_viz.system.settings import SettingError, check_kind, from_document, plain_number
 
 MODEL = "model"
@@ -43,7 +44,7 @@ def checked(values: Mapping[str, object], kinds: Mapping[str, object]) -> dict[s
     found: dict[str, object] = {}
     for name, value in values.items():
         if name not in kinds:
-            raise SettingError(f"there is no setting {name}")
+            raise SettingError(f"there is no setting {name}; {meant(name, kinds, 'there are')}")
         found[name] = from_document(plain_number(value), kinds[name])
         if kinds[name] is not UNTOLD or not _is_plain(found[name]):
             check_kind(name, found[name], kinds[name], -float("inf"), float("inf"))

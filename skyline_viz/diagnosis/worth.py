@@ -10,9 +10,6 @@ import numpy as np
 from skyline_viz.diagnosis.by_cause import over_all
 from skyline_viz.diagnosis.record import Diagnosed
 
-MOST = 8
-"""Settings that are listed."""
-
 
 @dataclass(frozen=True)
 class Worth:
@@ -38,7 +35,7 @@ class Worth:
 
 
 def worths(found: Sequence[Diagnosed]) -> list[Worth]:
-    """The settings that make the mean A_err smaller, that which does most first.
+    """All settings that were tried, that first with which the mean A_err is smallest.
 
     Args:
         found: Photos, with what was tried on each.
@@ -62,5 +59,4 @@ def worths(found: Sequence[Diagnosed]) -> list[Worth]:
                 broken=sum(one.broken for one in remedies),
             )
         )
-    tried.sort(key=lambda one: (one.change, one.name))
-    return [one for one in tried if one.change < 0][:MOST]
+    return sorted(tried, key=lambda one: (one.change, one.lost - one.saved, one.name))
