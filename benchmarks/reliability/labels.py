@@ -16,7 +16,7 @@ import numpy as np
 from PIL import Image
 
 from annotate.formats import FORMATS, FormatError, export_labels, import_labels
-from annotate.store.folder import photos_below
+from skyline_viz.datasets.tree import photos_below
 from annotate.store.labels import Label
 from benchmarks.reliability import Trial
 from skyline_viz.command_line.inputs import output_names

@@ -4,9 +4,9 @@ import json
 
 import numpy as np
 import pytest
+from annotate.store.folder import photos_below
 
 from annotate.cli import main as annotate
-from annotate.store.folder import photos_below
 from annotate.store.store import Store
 from skyline_viz.cli import main
 from skyline_viz.datasets.layouts import open_dataset

@@ -4,11 +4,11 @@ import random
 import shutil
 
 import numpy as np
+from annotate.store.folder import photos_below
 from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from annotate.formats import FORMATS, export_labels, import_labels
-from annotate.store.folder import photos_below
 from annotate.store.labels import Label
 from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline
