@@ -54,7 +54,7 @@ def write_ch1(entries: list[Entry], folder: Path) -> None:
         suffix = entry.photo.suffix.lower()
         shutil.copyfile(entry.photo, part / "images" / f"{entry.stem}{suffix}")
         lines.append([mask, entry.label.name])
-    _write_index(part, lines)
+    _write_index(folder, lines)
 
 
 def read_ch1(task: Task) -> None:

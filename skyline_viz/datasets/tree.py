@@ -35,11 +35,14 @@ SIGNS = (
     ("gallery.json",),
     ("summary.json", "photos.csv"),
     ("segments.csv", "diagnosis.json"),
+    ("index.html", "pages", "thumbnails"),
     ("names.csv", "ground_truth"),
+    ("names.csv", "cvg"),
 )
-"""Files that lie together in what was written by `detect`, `gallery`, `evaluate`, `diagnose` and an
-export with photos."""
+"""Files that lie together in what was written by `detect`, `gallery`, `evaluate`, `diagnose`,
+``gallery --html``, and an export with photos."""
 
+_GALLERY = {"gallery.json", "thumbnails"}
 _FIGURES = ("histogram", "curves", "causes")  # pictures in a folder of results
 _OVERLAY = "-overlay"  # what `detect` adds to the name of a photo with its line
 _OF_ONE_PHOTO = ("cyl", "pinhole")  # folders of GeoPose3K that belong to the photo beside them
@@ -181,7 +184,8 @@ class Tree:
 
     def _is_written(self, folder: Path, parent: Path) -> bool:
         """Whether one of our programs has made a folder; counts the pictures in it then."""
-        thumbnails = folder.name == "thumbnails" and (parent / "gallery.json").exists()
+        own = [sign for sign in SIGNS if folder.name == "thumbnails" and _GALLERY & {*sign}]
+        thumbnails = any(_all_in(parent, sign) for sign in own)
         if not (thumbnails or any(_all_in(folder, sign) for sign in SIGNS)):
             return False
         places = [Path(place) for place, _, _ in os.walk(folder)]

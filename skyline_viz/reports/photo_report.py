@@ -86,6 +86,21 @@ class PhotoReport:
     mended: str
     """The line with the best remedy; empty without one."""
 
+    own_tags: tuple[str, ...] = ()
+    """Words by which it can be chosen, such as the folder it lies in."""
+
+    @property
+    def tags(self) -> tuple[str, ...]:
+        """Words by which it can be chosen, with what the detection came to."""
+        found = list(self.own_tags)
+        if self.a_err is None:
+            found.append("no truth")
+        elif self.verdict.gross_miss:
+            found.append("gross miss")
+        if self.shows not in (None, "skyline"):
+            found.append(str(self.shows))
+        return tuple(dict.fromkeys(found))
+
     @property
     def a_err(self) -> float | None:
         """Mean error in pixels; None without a truth."""
