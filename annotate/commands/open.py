@@ -103,11 +103,11 @@ class Open:
         if not 0 <= self.port < 2**16:
             raise UsageError(f"ports are numbered up to 65535, so there is no port {self.port}.")
 
-    def _unread(self) -> list[str]:
-        """A sentence about pictures in the folder that cannot be read, where there are any."""
-        from annotate.store.folder import unread_below
+    def _not_taken(self) -> list[str]:
+        """Sentences about pictures in the folder that are no photos to label."""
+        from skyline_viz.datasets.tree import Tree
 
-        return [unread] if (unread := unread_below(self.folder)) else []
+        return [*Tree.of(self.folder).said()]
 
     def _serve(self) -> int:
         from annotate.store.store import Store
@@ -128,10 +128,10 @@ class Open:
                 f"{self.from_diagnosis} has the cause {self.cause} of no photo in {self.folder}."
             )
         if not bench.photos:
-            raise UsageError(" ".join([f"{self.folder} holds no photograph.", *self._unread()]))
+            raise UsageError(" ".join([f"{self.folder} holds no photograph.", *self._not_taken()]))
         for problem in bench.store.problems:
             say(problem, PROGRAM)
-        for unread in self._unread():
+        for unread in self._not_taken():
             say(unread, PROGRAM)
         most = self.max_megapixels * 1e6
         every = bench.photos.values()

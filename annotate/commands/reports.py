@@ -47,8 +47,8 @@ class Status:
         from rich.table import Table
 
         from annotate.formats.orphans import gone
-        from annotate.store.folder import unread_below
         from annotate.work.joined import joined
+        from skyline_viz.datasets.tree import Tree
 
         with opened(self.folder) as store:
             found = joined(store)
@@ -76,8 +76,7 @@ class Status:
                 whose = f"{one.annotator}, pass {one.number}, {one.status}"
                 tell(f"{shortened(one.name)} ({one.digest}): {whose}")
         notes = [*store.problems, *found.damaged, *aside, *gone(found.orphans)]
-        if unread := unread_below(self.folder):
-            notes.append(unread)
+        notes += Tree.of(self.folder).said()
         for note in notes:
             say(note, PROGRAM)
         return SOME_FAILED if store.fault else GOOD

@@ -13,10 +13,10 @@ import numpy as np
 import numpy.typing as npt
 
 from annotate.store.contents import Contents
-from annotate.store.folder import photos_below
 from annotate.store.labels import Label
 from skyline_viz.arrays import runs
 from skyline_viz.datasets.outlines import FormatError
+from skyline_viz.datasets.tree import photos_below
 from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.skyline import Skyline, SkylineError
 

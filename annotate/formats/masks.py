@@ -1,6 +1,7 @@
 """Labels as pictures: masks, photos with the line painted on, and the layout of CH1.
 
-``names.csv`` in a painted export says which photo each number stands for.
+``names.csv`` in an export with photos says which photo each truth is of. It also tells that the
+photos are copies.
 """
 
 from __future__ import annotations
@@ -46,11 +47,15 @@ def read_masks(task: Task) -> None:
 def write_ch1(entries: list[Entry], folder: Path) -> None:
     """Write copies of the photos, and masks beside them."""
     part = folder / CH1_PART
+    lines = [_HEADER]
     for entry in entries:
-        write_photo(part / "ground_truth" / f"{entry.stem}-mask.png", _mask(entry))
+        mask = f"{entry.stem}-mask.png"
+        write_photo(part / "ground_truth" / mask, _mask(entry))
         (part / "images").mkdir(exist_ok=True)
         suffix = entry.photo.suffix.lower()
         shutil.copyfile(entry.photo, part / "images" / f"{entry.stem}{suffix}")
+        lines.append([mask, entry.label.name])
+    _write_index(folder, lines)
 
 
 def read_ch1(task: Task) -> None:
@@ -81,6 +86,10 @@ def write_painted(entries: list[Entry], folder: Path) -> None:
         write_photo(folder / "images" / f"R_GImag{number:04}.bmp", photo)
         write_photo(folder / "ground_truth" / truth, painted)
         lines.append([truth, entry.label.name])
+    _write_index(folder, lines)
+
+
+def _write_index(folder: Path, lines: list[list[str]]) -> None:
     with (folder / _INDEX).open("w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n", quoting=csv.QUOTE_ALL).writerows(lines)
 

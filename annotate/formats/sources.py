@@ -52,11 +52,12 @@ def format_of(source: Path, files: Sequence[Path]) -> str:
         FormatError: It is of none that is read; the message says what was found.
     """
     names = {path.name for path in source.iterdir()} if source.is_dir() else set()
-    for mark, named in (("labels.json", "json"), ("names.csv", "painted")):
-        if mark in names:
-            return named
+    if "labels.json" in names:
+        return "json"
     if any(path.parent.name == "ground_truth" and path.parent.parent != source for path in files):
         return "ch1"
+    if "names.csv" in names:
+        return "painted"
     others: list[str] = []
     for file in sorted(files, key=lambda one: one.suffix.lower() in PHOTO_SUFFIXES):
         try:

@@ -17,8 +17,8 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from annotate.store.folder import photos_below
 from skyline_viz.arrays import U8
+from skyline_viz.datasets.tree import photos_below
 from skyline_viz.photo import PhotoError, photo_size, read_photo
 
 _FEW = 50  # photos that are read without asking

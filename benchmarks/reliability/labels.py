@@ -16,11 +16,11 @@ import numpy as np
 from PIL import Image
 
 from annotate.formats import FORMATS, FormatError, export_labels, import_labels
-from annotate.store.folder import photos_below
 from annotate.store.labels import Label
 from benchmarks.reliability import Trial
 from skyline_viz.command_line.inputs import output_names
 from skyline_viz.datasets.layouts import open_dataset
+from skyline_viz.datasets.tree import photos_below
 from skyline_viz.datasets.truths import read_truth
 from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline, SkylineError

@@ -5,10 +5,11 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import count
 from pathlib import Path
 
-from skyline_viz.command_line.messages import UsageError, counted, say, say_last
+from skyline_viz.command_line.messages import UsageError, say, say_last
+from skyline_viz.command_line.sources import Missing, named
 from skyline_viz.command_line.truth_options import Truths
-from skyline_viz.datasets.layouts import Dataset, DatasetItem, truth_names
-from skyline_viz.datasets.matching import TRUTH_FOLDERS
+from skyline_viz.datasets.layouts import Dataset, DatasetError, DatasetItem, truth_names
+from skyline_viz.datasets.matching import IMAGE_FOLDERS, TRUTH_FOLDERS
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.running.batch import Failure
@@ -18,41 +19,38 @@ _LONGEST = 255 - len("-overlay.jpg")
 """Bytes of an output's name, without the longest ending that we put to it."""
 
 
+_MOST_SAID = 5  # sentences of a kind that are said one by one
+_NO_PHOTO = " has no photo."
+
 NO_PHOTOS = "which photos? Name at least one photo or folder."
 
 
 def collect(
     paths: Sequence[Path], truths: Truths | None = None, taken: Sequence[str] = ()
 ) -> list[NamedItem]:
-    """Photos of a command line: files as they are, folders as data sets; each file once.
+    """Photos of a command line: files as they are, folders as data sets; each path once.
 
-    A file that does not exist is an input, too: it fails when its turn comes.
+    A file that does not exist is an input, too: it fails when its turn comes. So does a folder
+    that holds no photo, beside others that do.
 
     Args:
-        paths: Files and folders.
+        paths: Files, folders, patterns and lists, see `sources.named`.
         truths: How to read the truths of data sets.
         taken: Names that no photo's outputs may have.
 
     Raises:
-        DatasetError: A folder holds no photo, or several data sets.
+        DatasetError: None of the folders holds a photo.
+        UsageError: A list cannot be read.
     """
-    found: dict[Path, DatasetItem] = {}
-    again: list[str] = []
-    for path in paths:
-        items: Iterable[DatasetItem] = [DatasetItem(path.stem, path)]
-        if path.is_dir():
-            items = dataset = (truths or Truths()).open(path)
-            _tell(dataset)
-        for item in items:
-            first = found.setdefault(item.photo_path.resolve(), item).photo_path
-            if first.absolute() != item.photo_path.absolute():
-                again.append(item.photo_path.name)
-    if again:
-        one = len(again) == 1
-        links = (
-            "is another name of a photo that is" if one else "are other names of photos that are"
-        )
-        say(f"{counted(len(again), 'file')} {links} done already: {listed(again)}.")
+    found: dict[str, DatasetItem] = {}
+    missing: list[Missing] = []
+    for one in named(paths):
+        for item in _opened(one, truths or Truths()):
+            if isinstance(item, Missing):
+                missing.append(item)
+            found.setdefault(os.path.abspath(item.photo_path), item)  # noqa: PTH100  # links stay
+    if len(missing) == len(found):
+        raise DatasetError(" ".join(one.reason for one in missing[:_MOST_SAID]))
     items = list(found.values())
     plain = [_plain_name(item) for item in items]
     names = output_names(items, taken)
@@ -74,6 +72,7 @@ def output_names(items: Sequence[DatasetItem], taken: Sequence[str] = ()) -> lis
     names = [f"{name}-photo" if name.casefold() in reserved else name for name in names]
     longer: tuple[Callable[[DatasetItem], str], ...] = (
         lambda item: item.name.replace("/", "-"),
+        lambda item: f"{item.photo_path.parent.name}-{item.photo_path.stem}".lstrip("-"),
         lambda item: item.photo_path.name,
     )
     for longer_name in longer:
@@ -144,8 +143,9 @@ def output_folder(out: Path, items: Iterable[DatasetItem]) -> Path:
             for the truth of a photo.
     """
     target = out.resolve()
-    for place in {item.photo_path.resolve().parent for item in items}:
-        homes = [place, place.parent] if place.name.lower() == "images" else [place]
+    photos = [item.photo_path for item in items if not isinstance(item, Missing)]
+    for place in {photo.resolve().parent for photo in photos}:
+        homes = [place, place.parent] if place.name.lower() in IMAGE_FOLDERS else [place]
         truths = target.name.lower() in TRUTH_FOLDERS and target.parent in homes
         if target == place or truths:
             raise UsageError(
@@ -164,12 +164,34 @@ def output_folder(out: Path, items: Iterable[DatasetItem]) -> Path:
 
 def _tell(dataset: Dataset) -> None:
     """Say what is wrong with a data set, and at the very end what was not taken."""
+    lost = [one for one in dataset.problems if one.endswith(_NO_PHOTO)]
+    many = len(lost) > _MOST_SAID
     for problem in dataset.problems:
-        say(f"{dataset.name}: {problem}")
+        if not (many and problem in lost):
+            say(f"{dataset.name}: {problem}")
+    if many:
+        names = listed([one.removesuffix(_NO_PHOTO) for one in lost])
+        say(f"{dataset.name}: {len(lost)} truths have no photo: {names}.")
     for sentence in dataset.left_out:
         say_last(f"{dataset.name}: {sentence}")
 
 
+def _opened(named: Path | Missing, truths: Truths) -> Iterable[DatasetItem]:
+    """The photos of what was named."""
+    if isinstance(named, Missing):
+        return [named]
+    if not named.is_dir():
+        return [DatasetItem(named.stem, named)]
+    try:
+        datasets = truths.open_all(named)
+    except DatasetError as error:
+        return [Missing(named.name, named, reason=str(error))]
+    for dataset in datasets:
+        _tell(dataset)
+    return [item for dataset in datasets for item in dataset]
+
+
 def _plain_name(item: DatasetItem) -> str:
-    """The photo's stem; in GeoPose3K, where every photo has the same, its folder."""
-    return item.name if item.label_map else item.photo_path.stem
+    """The photo's stem; where a folder holds one photo, and all have the same stem, its folder."""
+    own, path = item.name.rpartition("/")[2], item.photo_path
+    return path.stem if own in (path.stem, path.name) else own

@@ -40,6 +40,16 @@ class Truths:
 
         return open_dataset(folder, sky=self.sky, terrain=self.terrain)
 
+    def open_all(self, folder: Path) -> list[Dataset]:
+        """Open the data sets of a folder, where it holds several.
+
+        Raises:
+            DatasetError: As `skyline_viz.datasets.layouts.open_datasets`.
+        """
+        from skyline_viz.datasets.layouts import open_datasets
+
+        return open_datasets(folder, sky=self.sky, terrain=self.terrain)
+
 
 TruthOptions: TypeAlias = Annotated[Truths, tyro.conf.arg(name="")]
 """`Truths` without a prefix of their own."""

@@ -31,7 +31,7 @@ from skyline_viz.running.photo_table import (
     write_table,
 )
 from skyline_viz.system.memory import MAX_MEGAPIXELS
-from skyline_viz.system.names import columns_of, padded, shortened
+from skyline_viz.system.names import columns_of, listed, padded, shortened
 from skyline_viz.system.notes import note
 
 if TYPE_CHECKING:

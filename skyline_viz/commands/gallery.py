@@ -24,9 +24,10 @@ from skyline_viz.command_line.messages import (
     tell_row,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import Folder, Switch, check_picture
+from skyline_viz.command_line.settings import Folder, OptionalFolder, Switch, check_picture
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
+from skyline_viz.commands.gallery_pages import write_pages
 from skyline_viz.diagnosis.causes import Cause, Place, Preferring, filter_words
 from skyline_viz.running.batch import Failure
 from skyline_viz.system.aftermath import ended
@@ -43,6 +44,12 @@ FlaggedPhotos: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="PHO
 
 LOOK_EVERY = 0.5
 """Seconds between two looks at what people said about photos, and at whether to end."""
+
+NO_DISPLAY = (
+    "there is no display to open the viewer on; --html DIR writes pages for a browser, "
+    "--screenshot FILE.png draws the cards, and --serve shows them elsewhere on this machine."
+)
+"""What is said where no window can be opened."""
 
 PICTURE = (1280, 840)
 """Width and height of a picture of the cards, in pixels: two rows of them are whole."""
@@ -90,6 +97,10 @@ class GalleryCommand:
     screenshot: Annotated[Path | None, tyro.conf.arg(metavar="FILE.png")] = None
     """Draw the cards into a file instead of opening the viewer; needs no screen."""
 
+    html: OptionalFolder = None
+    """Write pages for any browser into a folder instead: cards to sort and filter, a page a photo.
+    No viewer, no server."""
+
     serve: Switch = False
     """Serve the gallery until Ctrl-C without opening a viewer."""
 
@@ -118,9 +129,18 @@ class GalleryCommand:
         if not self.photos:
             raise UsageError("which data set? Name a folder of photos.")
         check_picture(self.screenshot)
-        if self.screenshot and self.serve:
-            raise UsageError("--screenshot and --serve exclude each other.")
+        ways = [way for way in ("screenshot", "serve", "html") if getattr(self, way)]
+        if len(ways) > 1:
+            raise UsageError(f"--{ways[0]} and --{ways[1]} exclude each other.")
+        if self.html and self.cause:
+            raise UsageError("--cause is for the viewer; the page of --html has a filter for it.")
+        if not ways and not _has_display():
+            raise UsageError(NO_DISPLAY)
         inputs = collect(self.photos, self.truths)
+        if self.html:
+            title = self.photos[0].resolve().name
+            chosen = self.methods.chosen()
+            return write_pages(self.html, title, inputs, chosen, self.out, self.workers)
         output_folder(self.out, (one.item for one in inputs))
         method, *beside = self._methods()
         entries, failures = build(self.out, inputs, method, self.workers, *beside)
@@ -174,9 +194,9 @@ def build(
 
 
 def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: str = "") -> None:
-    """Serve a gallery, in a window where there is a display, until it is closed or Ctrl-C."""
+    """Serve a gallery, in a window if asked for, until that is closed or Ctrl-C."""
     from skyline_viz.gallery.flag_page import flag_page
-    from skyline_viz.viewer.program.process import has_display, open_viewer
+    from skyline_viz.viewer.program.process import open_viewer
 
     with (
         _served(out, entries, cause) as gallery,
@@ -185,12 +205,10 @@ def show(out: Path, entries: Sequence[Entry], *, window: bool, cause: str = "") 
         ExitStack() as around,
     ):
         viewer = None
-        if window and has_display():
+        if window:
             viewer = open_viewer([gallery.address])
             around.callback(ended, viewer)
         else:
-            if window:
-                say("there is no display to open the viewer on; --screenshot FILE.png needs none.")
             tell(f"Look at it with: rerun {gallery.address}")
         tell(f"Review and comment in a browser: {page}")
         tell("Ctrl-C ends." if viewer is None else "Closing the viewer, or Ctrl-C, ends both.")
@@ -255,6 +273,12 @@ def list_flags(out: Path, names: Sequence[str] | None = None) -> int:
         comment = " ".join(flag.comment.split())
         tell_row(name, str(int(flag.reviewed)), comment)
     return GOOD
+
+
+def _has_display() -> bool:
+    from skyline_viz.viewer.program.process import has_display  # the viewer is heavy
+
+    return has_display()
 
 
 def _existing(out: Path) -> Path:

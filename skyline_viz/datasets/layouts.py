@@ -7,50 +7,46 @@ Basalt     ``images/marsim0001.pgm``          ``ground_truth/GT_marsim001_Edge.b
 Web        ``images/R_GImag0001.bmp``         ``ground_truth/GT_GoogleImage001_Edge.bmp``
 CH1        ``PART/images/NAME.EXT``           ``PART/ground_truth/NAME-mask.EXT``
 GeoPose3K  ``NAME/photo.jpg``                 ``NAME/pinhole/labels*.png``, ``NAME/labels*.png``
-plain      ``images/*``, else ``*``           in a folder of truths or beside the photo
+plain      wherever they lie in the folder    in a folder of truths, or beside the photo
 =========  =================================  ====================================================
 
 What a truth may be, `skyline_viz.truths` says. Folders of truths are ``ground_truth/``, ``masks/``,
-``truth/`` and ``labels/``. A truth has the photo's name, to which ``_mask``, ``_edge``, ``_gt``,
-``_truth`` or ``_label`` may be added, with ``-`` or ``_``; Basalt and Web go by number. Several
-truths of a photo: the first counts, CSV and JSON before pictures.
+``truth/``, ``labels/`` and others, see `matching.TRUTH_FOLDERS`. A truth has the photo's name,
+to which ``_mask``, ``_edge``, ``_gt``, ``_truth`` or ``_label`` may be added, with ``-`` or ``_``.
+Basalt and Web go by number. Of several truths of a photo the first counts, CSV and JSON before
+pictures.
 
 GeoPose3K's maps in ``cyl/`` are in a cylindrical projection, to which the photo does not fit, and
 are not used.
 """
 
 import os
-from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
 from skyline_viz.arrays import U8
 from skyline_viz.datasets.matching import (
-    ADDED,
+    IMAGE_FOLDERS,
     NUMBERED,
     TRUTH_FOLDERS,
-    bare_stem,
     choose,
-    common_name,
     folder_named,
-    folders_in,
-    label_maps_in,
-    photo_in,
-    skyline_files,
-    truths_in,
+    is_label_map,
 )
-from skyline_viz.datasets.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, truth_with_notes
-from skyline_viz.photo import find_photos, read_photo_with_notes
+from skyline_viz.datasets.pairing import item_names, paired
+from skyline_viz.datasets.tree import Tree
+from skyline_viz.datasets.truths import truth_with_notes
+from skyline_viz.photo import read_photo_with_notes
 from skyline_viz.picture_files.kinds import left_out
-from skyline_viz.picture_files.listing import find_unread
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.notes import note
 
 Layout = Literal["Basalt", "Web", "CH1", "GeoPose3K", "plain"]
 """The published layouts, and the folder of photographs that follows none of them."""
 
+_GEOPOSE3K_DEEP = 2  # parts of NAME/photo.jpg
 _CH1_PARTS = ("cvg", "panoramio", "poor_edge_images")
 
 
@@ -124,7 +120,7 @@ class Dataset:
 
     left_out: tuple[str, ...] = ()
     """What else lies there: a sentence about pictures that cannot be read, grouped by the reason,
-    and one about photos in folders in which none is looked for."""
+    one about those that our programs have written, and one about photos beside a data set."""
 
     def __iter__(self) -> Iterator[DatasetItem]:
         return iter(self.items)
@@ -138,10 +134,10 @@ def open_dataset(
 ) -> Dataset:
     """Open a data set, or the folder in which a single one lies, and match photos with truths.
 
-    Looks at names and headers and reads no pixels, but for masks of numbers that no photo has. A
-    photo without truth is fine. A truth without
-    photo, or of another size than its photo, is left out and named in `Dataset.problems`. Hidden
-    files are ignored.
+    Photos are also looked for in the folders below, see `skyline_viz.datasets.tree`. Looks at names
+    and headers and reads no pixels, but for masks of numbers that no photo has. A photo without
+    truth is fine. A truth without photo, or of another size than its photo, is left out and named
+    in `Dataset.problems`. Hidden files are ignored.
 
     Args:
         folder: The folder.
@@ -153,22 +149,40 @@ def open_dataset(
         DatasetError: The folder is missing, is a file, cannot be listed, holds no photograph, or
             holds several data sets.
     """
+    found = open_datasets(folder, sky=sky, terrain=terrain)
+    if len(found) > 1:
+        names = ", ".join(dataset.name for dataset in found)
+        raise DatasetError(f"{Path(folder)} holds several data sets, {names}; open one of them.")
+    return found[0]
+
+
+def open_datasets(
+    folder: str | os.PathLike[str], *, sky: str | None = None, terrain: str | None = None
+) -> list[Dataset]:
+    """Open a folder as `open_dataset` does; where it holds several published data sets, each one.
+
+    Raises:
+        DatasetError: The folder is missing, is a file, cannot be listed, or holds no photograph.
+    """
     root = Path(folder)
     try:
         if not root.is_dir():
             reason = "is a file, not a folder" if root.exists() else "does not exist"
             raise DatasetError(f"{root} {reason}.")
-        found = [dataset] if (dataset := _recognise(root)) else _inside(root)
+        tree = Tree.of(root)
+        if not tree.photos:
+            others = left_out(tree.unread, root)
+            raise DatasetError(f"{root} holds no photograph{f'; {others[:-1]}' if others else ''}.")
+        inside = [Tree.of(one, named=False) for one in _several(tree)]
+        found = [_opened(one) for one in inside or [tree]]
+        found[0] = replace(found[0], left_out=tree.said())  # also of what lies beside them
     except OSError as error:
         reason = error.strerror or str(error)
         raise DatasetError(f"{root} cannot be read: {reason.lower()}.") from error
-    if not found:
-        raise DatasetError(f"{root} holds no photograph{_else_in(root)}.")
-    if len(found) > 1:
-        names = ", ".join(dataset.name for dataset in found)
-        raise DatasetError(f"{root} holds several data sets, {names}; open one of them.")
-    items = tuple(replace(item, sky=sky, terrain=terrain) for item in found[0])
-    return replace(found[0], items=items)
+    return [
+        replace(one, items=tuple(replace(item, sky=sky, terrain=terrain) for item in one))
+        for one in found
+    ]
 
 
 def truth_names(item: DatasetItem) -> str:
@@ -176,135 +190,52 @@ def truth_names(item: DatasetItem) -> str:
     stem = item.photo_path.stem
     if item.label_map:
         return f"labels.png in {item.photo_path.parent.name} or its folder pinhole"
-    places = " or ".join([", ".join(f"{one}/" for one in TRUTH_FOLDERS[:-1]), TRUTH_FOLDERS[-1]])
-    return f"{stem}.png, {stem}_mask.png, {stem}.csv or the like, in {places}/"
+    places = ", ".join(f"{one}/" for one in TRUTH_FOLDERS[:4])
+    return f"{stem}.png, {stem}_mask.png, {stem}.csv or the like, in {places} or beside the photo"
 
 
-def _inside(root: Path) -> list[Dataset]:
-    """Data sets one level down; loose photos there are somebody's pictures, not a data set."""
-    found = [(child, _recognise(child)) for child in folders_in(root)]
-    return [
-        dataset
-        for child, dataset in found
-        if dataset and (dataset.layout != "plain" or folder_named(child, "images"))
-    ]
+def _several(tree: Tree) -> list[Path]:
+    """Folders of a folder that are data sets of their own: published ones, or a single one."""
+    root = tree.root
+    inside: dict[Path, list[Path]] = {}
+    for photo in tree.photos:
+        inside.setdefault(root / photo.relative_to(root).parts[0], []).append(photo)
+    near = [one for one in tree.photos if len(one.relative_to(root).parts) <= _GEOPOSE3K_DEEP]
+    if _layout(root, near, tree) in ("CH1", "GeoPose3K") or any(
+        one.name.lower() in IMAGE_FOLDERS or photos == [one] for one, photos in inside.items()
+    ):
+        return []
+    published = [one for one, photos in inside.items() if _layout(one, photos, tree) != "plain"]
+    return published if len(published) > 1 else [*inside] if len(inside) == 1 else []
 
 
-def _recognise(root: Path) -> Dataset | None:
-    items: list[DatasetItem] = []
+def _layout(root: Path, photos: Sequence[Path], tree: Tree) -> Layout:
+    """The published layout that photos of a folder follow."""
+    parts = {photo.relative_to(root).parts[0] for photo in photos}
+    if any(one.lower() in _CH1_PARTS and folder_named(root / one, "images") for one in parts):
+        return "CH1"
+    if any(_is_geopose3k(photo, tree) for photo in photos):
+        return "GeoPose3K"
+    numbered = [match for photo in photos if (match := NUMBERED.fullmatch(photo.stem))]
+    if 2 * len(numbered) > len(photos):
+        return "Basalt" if numbered[0][1] else "Web"
+    return "plain"
+
+
+def _is_geopose3k(photo: Path, tree: Tree) -> bool:
+    return photo in tree.lone and photo.stem.lower() == "photo"
+
+
+def _opened(tree: Tree) -> Dataset:
+    """The photos of a folder with their truths."""
+    root = tree.root
     problems: list[str] = []
-    layout: Layout = "GeoPose3K"
-    folders = folders_in(root)
-    plain = folder_named(root, "images") is not None
-    parts = [part for part in folders if part.name.lower() in _CH1_PARTS]
-    if parts := [part for part in parts if folder_named(part, "images")]:
-        layout = "CH1"
-        for part in parts:
-            items += _match(root, part, f"{part.name}/", problems)
-    elif not plain and photo_in(root) and label_maps_in(root):
-        items += _geopose3k(root, [root], problems)
-    elif not plain and any(photo_in(folder) and label_maps_in(folder) for folder in folders):
-        items += _geopose3k(root, folders, problems)
-    elif items := _match(root, root, "", problems):
-        numbered = [match for item in items if (match := NUMBERED.fullmatch(item.name))]
-        layout = "plain"
-        if 2 * len(numbered) > len(items):
-            layout = "Basalt" if numbered[0][1] else "Web"
-    else:
-        items += _geopose3k(root, folders, problems)
-    if not items:
-        return None
-    items.sort(key=lambda item: item.name)
-    # folders of GeoPose3K hold pictures of other kinds, too
-    left = () if layout == "GeoPose3K" else _not_taken(root, items)
-    return Dataset(root.absolute().name, layout, tuple(items), tuple(problems), left)
-
-
-def _not_taken(root: Path, items: list[DatasetItem]) -> tuple[str, ...]:
-    """See `Dataset.left_out`."""
-    taken = {item.photo_path.parent for item in items}
-    homes = sorted({root, *taken, *(folder.parent for folder in taken if folder != root)})
-    unread = left_out((file for home in homes for file in find_unread(home)), root)
-    return tuple(one for one in (unread, _photos_elsewhere(root, taken)) if one)
-
-
-def _photos_elsewhere(root: Path, taken: set[Path]) -> str | None:
-    """A sentence about photos in folders of a data set in which none is looked for."""
-    elsewhere = {}
-    for folder in [root, *folders_in(root)]:
-        truths = folder.name.lower() in TRUTH_FOLDERS and folder != root
-        if folder not in taken and not truths and (count := len(find_photos(folder))):
-            elsewhere["the folder itself" if folder == root else folder.name] = count
-    if not elsewhere:
-        return None
-    named = ", ".join(f"{count} in {name}" for name, count in elsewhere.items())
-    return f"photos in other places are not taken: {named}; name those folders to take them."
-
-
-def _else_in(root: Path) -> str:
-    """What a folder without photos holds instead, to end a sentence."""
-    if unread := left_out(find_unread(root), root):
-        return f"; {unread[:-1]}"
-    others = [one for one in folders_in(root) if one.name.lower() not in TRUTH_FOLDERS]
-    inside = [
-        (one.name, sum(bare_stem(file.stem) == file.stem for file in find_photos(one)))
-        for one in others
-    ]
-    if full := [f"{name} ({count})" for name, count in inside if count]:
-        return f" itself, but folders in it do: {', '.join(full)}; name those"
-    return ""
-
-
-def _match(root: Path, folder: Path, prefix: str, problems: list[str]) -> list[DatasetItem]:
-    """Photos of ``folder/images``, else of `folder`, each with the truth that has its name."""
-    images = folder_named(folder, "images")
-    images = images if images and find_photos(images) else folder
-    files = find_photos(images)
-    stems = {file.stem for file in files}
-
-    def is_truth(file: Path) -> bool:  # but knife_edge.jpg is a photo, unless there is a knife.jpg
-        added = ADDED.search(file.stem)
-        mask = added is not None and added[0].lower() in ("-mask", "_mask")
-        return added is not None and (mask or bare_stem(file.stem) in stems)
-
-    photos = [file for file in files if not is_truth(file)]
-    truths = [file for file in skyline_files(images) if begins_like_a_skyline(file)]
-    for place in (folder_named(folder, name) for name in TRUTH_FOLDERS):
-        truths += truths_in(root, place, problems) if place else []
-    truths += [file for file in files if is_truth(file)]
-    truths.sort(key=lambda file: file.suffix.lower() not in SKYLINE_SUFFIXES)
-
-    matched: dict[Path, list[Path]] = {photo: [] for photo in photos}
-    named: dict[str, list[list[Path]]] = {}
-    for photo, candidates in matched.items():
-        named.setdefault(common_name(photo.stem), []).append(candidates)
-    for truth in truths:
-        for candidates in (
-            found := named.get(common_name(truth.stem)) or named.get(bare_stem(truth.stem), [])
-        ):
-            candidates.append(truth)
-        if not found:
-            problems.append(f"{truth.relative_to(root)} has no photo.")
-
-    repeated = Counter(photo.stem for photo in photos)
-    return [
-        DatasetItem(
-            prefix + (photo.name if repeated[photo.stem] > 1 else photo.stem),
-            photo,
-            choose(root, photo, candidates, problems),
-        )
-        for photo, candidates in matched.items()
-    ]
-
-
-def _geopose3k(root: Path, folders: list[Path], problems: list[str]) -> list[DatasetItem]:
-    """One photo a folder."""
+    matched = paired(tree, problems)
     items = []
-    for folder in folders:
-        photo, maps = photo_in(folder), label_maps_in(folder)
-        if photo:
-            truth = choose(root, photo, maps, problems)
-            items.append(DatasetItem(folder.absolute().name, photo, truth, label_map=True))
-        elif maps:
-            problems.append(f"{maps[0].relative_to(root)} has no photo.")
-    return items
+    for name, photo in zip(item_names(tree), tree.photos, strict=True):
+        truth = choose(root, photo, matched[photo], problems)
+        label_map = _is_geopose3k(photo, tree) and (truth is None or is_label_map(truth.stem))
+        items.append(DatasetItem(name, photo, truth, label_map=label_map))
+    items.sort(key=lambda item: item.name)
+    layout = _layout(root, tree.photos, tree)
+    return Dataset(root.absolute().name, layout, tuple(items), tuple(sorted(problems)))

@@ -1,16 +1,16 @@
-"""Which files of a folder are photos and which are truths, and which belong together.
+"""How truths are called, and which one of a photo counts.
 
-The names decide, and then the sizes. `layouts` says which folders are looked at.
+The names decide, and then the sizes. `tree` says which folders are looked at, `pairing` which truth
+belongs to which photo.
 """
 
 import os
 import re
-from collections.abc import Sequence
 from pathlib import Path
 
 from skyline_viz.datasets.label_picture import label_size
-from skyline_viz.datasets.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, truth_with_notes
-from skyline_viz.photo import PhotoError, find_photos, photo_size
+from skyline_viz.datasets.truths import SKYLINE_SUFFIXES, truth_with_notes
+from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.skyline import SkylineError
 
 _MAP_NAMES = ("label", "pinhole_label")
@@ -21,8 +21,25 @@ NUMBERED = re.compile(r"(?:gt_)?(?:(marsim)|r_gimag|googleimage)(\d+)(?:_edge)?"
 ADDED = re.compile(r"[-_](masks?|edge|gt|truth|labels?)$", re.IGNORECASE)
 """What the name of a truth has besides that of its photo."""
 
-TRUTH_FOLDERS = ("ground_truth", "masks", "truth", "labels")
+TRUTH_FOLDERS = (
+    "ground_truth",
+    "masks",
+    "truth",
+    "labels",
+    "annotations",
+    "groundtruth",
+    "gt",
+    "mask",
+)
 """Folders (lower case) beside photos, or beside their ``images/``, that hold truths."""
+
+IMAGE_FOLDERS = ("images", "image", "imgs", "img", "photos")
+"""Folders (lower case) of photos that say no more than that: they are in no name."""
+
+_TRUTH_WORD = re.compile(
+    r"(pinhole_)?labels?(_.*)?|masks?|sky|skyline|truth|ground_?truth|gt|edge|segmentation",
+    re.IGNORECASE,
+)
 
 
 def bare_stem(stem: str) -> str:
@@ -34,35 +51,18 @@ def bare_stem(stem: str) -> str:
     return ADDED.sub("", stem)
 
 
-def is_truth_folder(place: Path) -> bool:
-    """Whether a folder holds the truths of the photos beside it, and not photos."""
-    named = place.name.lower() in TRUTH_FOLDERS
-    return named and bool(folder_named(place.parent, "images") or find_photos(place.parent))
+def is_label_map(stem: str) -> bool:
+    """Whether a file beside a photo of GeoPose3K is called as its label maps are."""
+    return stem.lower().startswith(_MAP_NAMES)
 
 
-def without_truths(files: Sequence[Path]) -> list[Path]:
-    """The photos among the pictures of a folder: what has a photo's name and ``_mask`` is none."""
-    stems = {file.stem for file in files}
-    maps = any(stem.lower() == "photo" for stem in stems)
-    return [
-        file
-        for file in files
-        if bare_stem(file.stem) == file.stem or bare_stem(file.stem) not in stems
-        if not (maps and file.stem.lower().startswith(_MAP_NAMES))
-    ]
+def is_truth_word(stem: str) -> bool:
+    """Whether a file that lies with its photo in a folder of their own is called as a truth is.
 
-
-def truths_in(root: Path, place: Path, problems: list[str]) -> list[Path]:
-    """Files of a folder of truths; ``labels/`` may be full of other programs' files."""
-    texts = skyline_files(place)
-    if place.name.lower() == "labels":
-        for file in [file for file in texts if not begins_like_a_skyline(file)]:
-            problems.append(
-                f"{file.relative_to(root)} holds no skyline; skyline-annotate import reads files "
-                f"of other programs."
-            )
-            texts.remove(file)
-    return [*texts, *find_photos(place)]
+    >>> is_truth_word("mask"), is_truth_word("labels_crop"), is_truth_word("north")
+    (True, True, False)
+    """
+    return _TRUTH_WORD.fullmatch(stem) is not None
 
 
 def choose(root: Path, photo: Path, truths: list[Path], problems: list[str]) -> Path | None:
@@ -113,15 +113,3 @@ def skyline_files(folder: Path) -> list[Path]:
     """CSV and JSON files of a folder, by name."""
     inside = (file for file in folder.iterdir() if not file.name.startswith("."))
     return sorted(f for f in inside if f.suffix.lower() in SKYLINE_SUFFIXES and f.is_file())
-
-
-def photo_in(folder: Path) -> Path | None:
-    """The photo of a folder of GeoPose3K; None where there is none."""
-    return next((file for file in find_photos(folder) if file.stem.lower() == "photo"), None)
-
-
-def label_maps_in(folder: Path) -> list[Path]:
-    """Label maps of a folder of GeoPose3K, those of its ``pinhole/`` first."""
-    places = [place for place in (folder_named(folder, "pinhole"), folder) if place]
-    files = [file for place in places for file in find_photos(place)]
-    return [file for file in files if file.stem.lower().startswith(_MAP_NAMES)]

@@ -36,6 +36,7 @@ MOST_WORTHS = 8
 MOST_STAGES = 40
 """Photos whose stages are in a report: those of more would make it too large to be mailed."""
 
+_BESIDE = "'self' file:"  # for a browser no file is of the same origin as another
 _STATIC = Path(__file__).with_name("static")
 
 
@@ -61,6 +62,12 @@ class Report:
     notes: Sequence[str] = ()
     """What else there is to know, in sentences."""
 
+    pages: Mapping[str, str] = field(default_factory=dict)
+    """Where the page of each photo lies, by its name; what is there is not in this page."""
+
+    back: str = ""
+    """Where the page of all photos lies; nothing without one."""
+
 
 def write_report(path: str | os.PathLike[str], report: Report) -> None:
     """Write a report, whole or not at all.
@@ -77,21 +84,25 @@ def page(report: Report) -> str:
     results = report.results or _own_results(photos)
     diagnosed = [one.diagnosed for one in photos if one.diagnosed]
     summaries = {name: Summary.of(found) for name, found in results.items() if found}
-    notes = [*report.notes, *_left_out(photos)]
+    notes = [*report.notes, *([] if report.pages else _left_out(photos))]
     shown = [one if at < MOST_STAGES else one.without_stages() for at, one in enumerate(photos)]
+    alone = len(photos) == 1 and not report.pages
     style, script = f"{_colours()}\n{_part('report.css')}", _part("report.js")
     return _templates().get_template("report.html").render(
         title=report.title,
         how=report.how,
         photos=shown,
-        alone=len(photos) == 1,
+        alone=alone,
+        pages=report.pages,
+        back=report.back,
+        tags=sorted({tag for one in photos for tag in one.tags}),
         summaries=summaries,
-        charts=charts(results) if len(photos) > 1 and summaries else None,
+        charts=charts(results) if not alone and summaries else None,
         chart_size=SIZE,
         plot_size=PLOT,
         others=_of_others(photos, results),
         causes=by_cause(diagnosed) if diagnosed else [],
-        worths=_worth_trying(diagnosed) if len(photos) > 1 else [],
+        worths=_worth_trying(diagnosed) if not alone else [],
         tried=any(one.remedies for one in diagnosed),
         right=sum(one.diagnosis.right for one in diagnosed),
         diagnosed=len(diagnosed),
@@ -101,7 +112,7 @@ def page(report: Report) -> str:
         version=__version__,
         style=style,
         script=script,
-        policy=policy(style, script),
+        policy=policy(style, script, _BESIDE if report.pages else ""),
     )  # fmt: skip
 
 
@@ -110,8 +121,8 @@ def _worth_trying(diagnosed: Sequence[Diagnosed]) -> list[Worth]:
     return [one for one in worths(diagnosed) if one.change < 0][:MOST_WORTHS]
 
 
-def policy(style: str, script: str) -> str:
-    """Content security policy of a page that holds all it needs.
+def policy(style: str, script: str, images: str = "") -> str:
+    """Content security policy of a page that holds all it needs, but for pictures perhaps.
 
     >>> policy("", "").split("; ")[:2]
     ["default-src 'none'", 'img-src data:']
@@ -119,11 +130,12 @@ def policy(style: str, script: str) -> str:
     Args:
         style: Its style sheet.
         script: Its script.
+        images: Where pictures may lie besides.
     """
     return "; ".join(
         [
             "default-src 'none'",
-            "img-src data:",
+            f"img-src data: {images}".rstrip(),
             f"style-src '{_digest(style)}'",
             f"script-src '{_digest(script)}'",
             "base-uri 'none'",

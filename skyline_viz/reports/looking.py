@@ -63,10 +63,27 @@ def look_at(
 
 
 def _look(task: _Task, *, photos: int, remedies: bool) -> PhotoReport:
+    return look(task, task.diagnosed, photos=photos, remedies=remedies)
+
+
+def look(
+    task: PhotoTask | _Task,
+    diagnosed: Diagnosed | None = None,
+    *,
+    photos: int = 1,
+    remedies: bool = False,
+) -> PhotoReport:
+    """Gather what a report shows of one photo.
+
+    Args:
+        task: The photo, with its method.
+        diagnosed: What is known of it; it is diagnosed where it has a truth.
+        photos: How many the report is of.
+        remedies: Whether other settings are tried on it.
+    """
     photo, truth = task.item.photo(), task.item.truth()
     warm_up()
     detection = task.method.detect(photo)
-    diagnosed = task.diagnosed
     if diagnosed is None and truth is not None and truth.visible.any():
         diagnosed = diagnose_detection(task.name, detection, truth, remedies=remedies)
     report = photo_report(task.name, detection, truth, diagnosed, photos=photos)

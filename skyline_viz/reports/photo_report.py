@@ -89,6 +89,21 @@ class PhotoReport:
     seen: str = ""
     """What has seen the photo in training, see `evaluation.seen.seen_in_training`."""
 
+    own_tags: tuple[str, ...] = ()
+    """Words by which it can be chosen, such as the folder it lies in."""
+
+    @property
+    def tags(self) -> tuple[str, ...]:
+        """Words by which it can be chosen, with what the detection came to."""
+        found = list(self.own_tags)
+        if self.a_err is None:
+            found.append("no truth")
+        elif self.verdict.gross_miss:
+            found.append("gross miss")
+        if self.shows not in (None, "skyline"):
+            found.append(str(self.shows))
+        return tuple(dict.fromkeys(found))
+
     @property
     def a_err(self) -> float | None:
         """Mean error in pixels; None without a truth."""

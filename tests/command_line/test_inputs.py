@@ -21,8 +21,14 @@ def test_output_names(items, names):
     assert output_names(made) == names
 
 
-def test_numbers_do_not_clash_either():
+def test_photos_of_one_name_are_called_after_their_folders_too():
     places = ["a/x.png", "b/x.png", "c/x-2.png"]
+    made = [sv.DatasetItem(Path(place).stem, Path(place)) for place in places]
+    assert output_names(made) == ["a-x", "b-x", "x-2"]
+
+
+def test_numbers_do_not_clash_either():
+    places = ["1/a/x.png", "2/a/x.png", "c/x-2.png"]
     made = [sv.DatasetItem(Path(place).stem, Path(place)) for place in places]
     assert output_names(made) == ["x", "x-3", "x-2"]
 

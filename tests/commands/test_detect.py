@@ -122,9 +122,9 @@ def test_photos_of_the_same_stem_do_not_overwrite_each_other(say, tmp_path):
     ]
     status, _, err = say("detect", *photos, photos[4], "--out", "out")
     assert status == 0
-    assert files(tmp_path / "out") == ["x.jpg.csv", "x.png.csv", "y-2.csv", "y.csv", "z.csv"]
-    assert "told apart in those of outputs: x.png, x.jpg, y-2." in err
-    found = sv.Skyline.read_csv(tmp_path / "out" / "y-2.csv")
+    assert files(tmp_path / "out") == ["b-y.csv", "c-y.csv", "x.jpg.csv", "x.png.csv", "z.csv"]
+    assert "told apart in those of outputs: x.png, x.jpg, b-y, c-y." in err
+    found = sv.Skyline.read_csv(tmp_path / "out" / "c-y.csv")
     assert sv.a_err(found, scene(3)[1]) < 2
 
 

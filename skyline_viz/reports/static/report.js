@@ -24,12 +24,14 @@ const numbered = (text) => (text ? Number(text) : undefined);
 class Card {
   /** @param {HTMLElement} element */
   constructor(element) {
-    const { name = "", titles = "", error, margin } = element.dataset;
+    const { name = "", titles = "", tags = "", error, margin, confidence } = element.dataset;
     this.element = element;
     this.name = name;
     this.titles = titles ? titles.split("|") : [];
+    this.tags = tags ? tags.split("|") : [];
     this.error = numbered(error);
     this.margin = numbered(margin) ?? Infinity;
+    this.confidence = numbered(confidence) ?? Infinity;
   }
 }
 
@@ -37,13 +39,17 @@ class Card {
 const byError = (a, b) => (b.error ?? -1) - (a.error ?? -1) || byMargin(a, b);
 /** @type {(a: Card, b: Card) => number} */
 const byMargin = (a, b) => (a.margin === b.margin ? byName(a, b) : a.margin - b.margin);
+/** What has no confidence comes last. @type {(a: Card, b: Card) => number} */
+const byConfidence = (a, b) => (a.confidence === b.confidence ? byMargin(a, b) : a.confidence - b.confidence);
 /** @type {(a: Card, b: Card) => number} */
 const byName = (a, b) => a.name.localeCompare(b.name, undefined, { numeric: true });
 /** Photos without a cause come last. @type {(a: Card, b: Card) => number} */
 const byCause = (a, b) =>
   Number(!a.titles.length) - Number(!b.titles.length) || (a.titles[0] ?? "").localeCompare(b.titles[0] ?? "") || byError(a, b);
 
-const ORDERS = new Map([["error", byError], ["margin", byMargin], ["name", byName], ["cause", byCause]]);
+const ORDERS = new Map([
+  ["error", byError], ["confidence", byConfidence], ["margin", byMargin], ["name", byName], ["cause", byCause],
+]);
 
 /** All cards, and what is above them. */
 class Page {
@@ -54,7 +60,7 @@ class Page {
     this.cards = [...elements].map((element) => new Card(element));
     form.addEventListener("input", () => this.show());
     form.addEventListener("submit", (event) => event.preventDefault());
-    this.show(); // a browser keeps what was typed when a page is loaded again
+    addEventListener("pageshow", () => this.show()); // a browser puts back what was typed
   }
 
   /** What a field says. @param {string} id */
@@ -66,10 +72,13 @@ class Page {
   /** Whether a card is asked for. @param {Card} card */
   fits(card) {
     const cause = this.said("cause");
+    const tag = this.said("tag");
     return (
       (!cause || card.titles.includes(cause)) &&
+      (!tag || card.tags.includes(tag)) &&
       card.name.toLowerCase().includes(this.said("name").trim().toLowerCase()) &&
       (card.error ?? -1) >= (numbered(this.said("least")) ?? -1) &&
+      card.confidence <= (numbered(this.said("confidence")) ?? Infinity) &&
       card.margin <= (numbered(this.said("margin")) ?? Infinity)
     );
   }

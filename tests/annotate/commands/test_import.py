@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from annotate.cli import main as annotate
-from annotate.store.folder import photos_below
 from annotate.store.store import Store
 from skyline_viz.cli import main
 from skyline_viz.datasets.layouts import open_dataset
+from skyline_viz.datasets.tree import photos_below
 from skyline_viz.photo import write_photo
 from testing import label_files as made
 
@@ -117,7 +117,7 @@ def test_the_masks_of_a_data_set_are_no_photos_to_label(photos):
     made.SAME["white sky"](photos).rename(photos / "ridge_mask.png")
     made.SAME["white sky"](photos).rename(photos / "alone_mask.png")
     shown = [path.relative_to(photos).as_posix() for path in photos_below(photos)]
-    assert shown == ["alone_mask.png", "b.png", made.NAME, "day2/m.png", "elsewhere/masks/m.png"]
+    assert shown == ["b.png", made.NAME, "day2/m.png"]
 
 
 def test_label_files_of_other_programs_are_no_truths_and_are_named(photos):

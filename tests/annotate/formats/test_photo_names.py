@@ -8,8 +8,8 @@ from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from annotate.formats import FORMATS, export_labels, import_labels
-from annotate.store.folder import photos_below
 from annotate.store.labels import Label
+from skyline_viz.datasets.tree import photos_below
 from skyline_viz.photo import write_photo
 from skyline_viz.skyline import Skyline
 from testing import label_files as made

@@ -1,0 +1,87 @@
+"""Photos as people name them: files, folders, patterns in quotes, and lists of all these."""
+
+from __future__ import annotations
+
+import glob
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from skyline_viz.arrays import U8
+from skyline_viz.command_line.messages import UsageError
+from skyline_viz.datasets.layouts import DatasetError, DatasetItem
+
+_LIST = "@"
+_MOST_BYTES = 100_000_000  # of a list
+
+
+@dataclass(frozen=True)
+class Missing(DatasetItem):
+    """What was named and holds no photo: it fails when its turn comes, as a bad photo does."""
+
+    reason: str = ""
+    """Why, in a sentence."""
+
+    def photo(self) -> U8:
+        """Refuse.
+
+        Raises:
+            DatasetError: Always.
+        """
+        raise DatasetError(self.reason)
+
+
+def named(paths: Sequence[Path]) -> Iterator[Path | Missing]:
+    """What a command line names: patterns become what they match, and ``@FILE`` what it lists.
+
+    A list has a path or a pattern a line, from the folder in which the command runs; paths with
+    zero bytes between them, as ``find -print0`` prints, do as well. ``@-`` is what is piped in. A
+    file that is there is taken by its name, whatever is in it.
+
+    Raises:
+        UsageError: A list cannot be read, or is empty.
+    """
+    for path in paths:
+        text = os.fspath(path)
+        if text.startswith(_LIST) and not _exists(path):
+            for line in _lines(text[1:]):
+                yield from _matched(Path(line))
+        else:
+            yield from _matched(path)
+
+
+def _matched(path: Path) -> Iterator[Path | Missing]:
+    """A path, or what a pattern matches, by name."""
+    if _exists(path) or not glob.has_magic(os.fspath(path)):
+        yield path
+        return
+    found = sorted(glob.glob(os.fspath(path), recursive=True))  # noqa: PTH207  # of absolute paths
+    yield from map(Path, found)
+    if not found:
+        yield Missing(path.name, path, reason=f"{path} matches no file.")
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return os.path.lexists(path)
+    except ValueError:  # it holds what no path may
+        return False
+
+
+def _lines(name: str) -> list[str]:
+    try:
+        if name == "-":
+            data = sys.stdin.buffer.read(_MOST_BYTES)
+        else:
+            with Path(name).open("rb") as file:
+                data = file.read(_MOST_BYTES)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise UsageError(f"the list {name} cannot be read: {reason}.") from error
+    text = os.fsdecode(data.removeprefix(b"\xef\xbb\xbf"))
+    lines = text.split("\0") if "\0" in text else [one.rstrip("\r") for one in text.split("\n")]
+    if not any(lines := [line for line in lines if line.strip()]):
+        raise UsageError(f"the list {name} names no photo.")
+    return lines
