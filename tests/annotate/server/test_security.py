@@ -41,7 +41,7 @@ PAGES = ("/", "/static/index.html")
 @pytest.mark.parametrize(("method", "route"), ROUTES)
 class TestRefusals:
     def test_another_host(self, client, method, route):
-        for host in ("evil.example", "127.0.0.1", "127.0.0.1:1", ""):
+        for host in ("evil.example", "127.0.0.1.evil.example", "127.0.0.2:1", "0.0.0.0", ""):
             said = client.request(method, route, headers={"Host": host}, params={"token": TOKEN})
             assert said.status_code in (400, 421)
             assert "hill" not in said.text
@@ -52,8 +52,9 @@ class TestRefusals:
             said = client.request(
                 method, route, headers={"X-Skyline-Token": token}, params={"token": token}
             )
-            assert said.status_code == (200 if code_of_the_page else 401)
-            assert code_of_the_page or "token" in said.json()["detail"]
+            told = route == "/" and token  # by an address that is out of date
+            assert said.status_code == (200 if code_of_the_page and not told else 401)
+            assert said.status_code == 200 or "token" in said.json()["detail"]
 
     def test_another_origin(self, client, method, route):
         here = str(client.base_url).removeprefix("http://").rstrip("/")
@@ -95,7 +96,7 @@ def test_web_sockets_are_closed_before_anything_sees_them():
     async def send(message):
         said.append(message)
 
-    guard = Guard(app, TOKEN, frozenset())
+    guard = Guard(app, {}, frozenset())
     for kind in ("websocket", "something else"):
         asyncio.run(guard({"type": kind, "path": "/api/photos"}, None, send))
     assert [message["type"] for message in said] == ["websocket.close"] * 2
