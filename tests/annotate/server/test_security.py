@@ -2,9 +2,12 @@
 
 import asyncio
 
+import httpx
 import pytest
+from starlette.responses import JSONResponse
 
-from annotate.server.security import PASS_HEADER, Guard
+from annotate.server.security import PASS_HEADER, TOKEN_HEADER, Guard
+from skyline_viz.system.loopback import allowed_hosts
 from testing.labelling import TOKEN
 
 ROUTES = [
@@ -100,6 +103,52 @@ def test_web_sockets_are_closed_before_anything_sees_them():
     for kind in ("websocket", "something else"):
         asyncio.run(guard({"type": kind, "path": "/api/photos"}, None, send))
     assert [message["type"] for message in said] == ["websocket.close"] * 2
+
+
+@pytest.mark.parametrize(
+    ("path", "headers", "status", "sentence"),
+    [
+        (
+            "/",
+            {"Host": "lab.example"},
+            421,
+            "not called lab.example; --allow-host lab.example lets",
+        ),
+        ("/", {"Host": "[fe80::1]:80"}, 421, "not called [fe80::1]; --allow-host [fe80::1] lets"),
+        ("/", {"Host": "<b>"}, 421, "This server is not called by that name."),
+        (
+            "/?token=old",
+            {TOKEN_HEADER: ""},
+            401,
+            "The token is missing or wrong; open the address that was printed.",
+        ),
+        ("/api/exports/csv", {TOKEN_HEADER: ""}, 401, "The token is missing or wrong"),
+    ],
+)
+def test_who_follows_a_wrong_link_reads_a_sentence(client, path, headers, status, sentence):
+    accept = {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"}
+    said = client.get(path, headers=headers | accept)
+    assert said.status_code == status
+    assert said.headers["content-type"] == "text/html; charset=utf-8"
+    assert sentence in said.text
+    assert "<b>" not in said.text
+    assert said.text.count("<p>") == 1
+
+
+def test_the_address_at_which_a_request_arrives_is_answered():
+    async def app(scope, receive, send):
+        await JSONResponse("let through")(scope, receive, send)
+
+    async def ask(host, server):
+        guard = Guard(app, {}, allowed_hosts())
+        transport = httpx.ASGITransport(
+            lambda scope, *rest: guard({**scope, "server": server}, *rest)
+        )
+        async with httpx.AsyncClient(transport=transport) as client:
+            return await client.get("http://here/", headers={"Host": host})
+
+    for server, status in ((("192.0.2.7", 8000), 200), (("192.0.2.8", 8000), 421)):
+        assert asyncio.run(ask("192.0.2.7:8000", server)).status_code == status
 
 
 @pytest.mark.parametrize("route", [route for method, route in ROUTES if method == "POST"])
