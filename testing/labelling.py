@@ -5,16 +5,19 @@ import subprocess
 import sys
 import threading
 import uuid
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 
 import httpx
 import numpy as np
 import uvicorn
 
-from annotate.commands.open import bound
+from annotate.commands.serving import bound
 from annotate.server.app import make_app
 from annotate.server.security import TOKEN_HEADER
 from annotate.store.store import Store
+from annotate.work.open_photos import BUDGET
+from annotate.work.shared_photos import SharedPhotos
 from annotate.work.workbench import Assignment, Workbench
 from skyline_viz.detector import Detector
 from skyline_viz.photo import write_photo
@@ -44,9 +47,15 @@ def write_hills(folder, count=3, **size):
     return folder
 
 
-def workbench(folder, annotator="ann", detector=DETECTOR, **how):
+def workbench(folder, annotator="ann", detector=DETECTOR, budget=BUDGET, **how):
     """A workbench over a folder."""
-    return Workbench(Store(folder), detector, Assignment(annotator, **how))
+    shared = SharedPhotos(Store(folder), budget=budget)
+    return Workbench(shared, detector, Assignment(annotator, **how))
+
+
+def beside(bench, annotator):
+    """A workbench of somebody else who labels the same photos at the same time."""
+    return Workbench(bench.shared, bench.detector, replace(bench.assignment, annotator=annotator))
 
 
 def asked(revision=-1, **body):
@@ -61,23 +70,37 @@ def done(client, photo, operation, revision=-1):
 
 
 @contextmanager
-def served(folder, **how):
+def served(folder, annotator="ann", **how):
     """A real server on this machine, as a client that knows the token."""
+    with served_to(folder, annotator, **how) as (client,):
+        yield client
+
+
+@contextmanager
+def served_to(folder, *people, **how):
+    """A real server on this machine, as a client for each person, who has an own token."""
     listener = bound("127.0.0.1", 0)
-    port = listener.getsockname()[1]
-    app = make_app(workbench(folder, **how), TOKEN, allowed_hosts("127.0.0.1", port))
+    address = f"http://127.0.0.1:{listener.getsockname()[1]}"
+    benches = [workbench(folder, people[0], **how)]
+    benches += [beside(benches[0], one) for one in people[1:]]
+    tokens = [TOKEN, *(f"a-token-for-{one}" for one in people[1:])]
+    app = make_app(dict(zip(tokens, benches, strict=True)), allowed_hosts())
     server = uvicorn.Server(uvicorn.Config(app, log_level="warning", lifespan="on"))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
     try:
-        with httpx.Client(
-            base_url=f"http://127.0.0.1:{port}", headers={TOKEN_HEADER: TOKEN}, timeout=30
-        ) as client:
+        with ExitStack() as clients:
             until(lambda: server.started)
-            yield client
+            yield [clients.enter_context(_client(address, token)) for token in tokens]
     finally:
         server.should_exit = True
         thread.join()
+
+
+def _client(address, token):
+    client = httpx.Client(base_url=address, headers={TOKEN_HEADER: token}, timeout=30)
+    client.address = f"{address}/?token={token}"
+    return client
 
 
 def started(folder):

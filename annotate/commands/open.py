@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import socket
-import webbrowser
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -12,19 +11,20 @@ import tyro
 
 from annotate.commands.options import (
     PROGRAM,
-    Annotator,
+    Annotators,
+    HostNames,
     PhotoFolder,
     check_folder,
     locked,
     whoever,
 )
+from annotate.commands.serving import serve
 from annotate.store.labels import MOST_PASSES
-from skyline_viz.command_line.messages import GOOD, UsageError, counted, say, tell
+from skyline_viz.command_line.messages import GOOD, UsageError, say, tell
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.settings import Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, say_too_large
 from skyline_viz.diagnosis.causes import DOUBTFUL, Cause, Place, Preferring
-from skyline_viz.system.endings import told_by_signals
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
@@ -46,8 +46,9 @@ class Open:
     folder: PhotoFolder
     """Folder of photos; labels are kept in it, in skyline-labels.sqlite."""
 
-    annotator: Annotator = ""
-    """Who labels; the user's name unless given."""
+    annotator: Annotators = ()
+    """Who labels; the user's name unless given. Given several times, all of them do at the same
+    time, each in an own pass, by an address of their own. They are remembered."""
 
     pass_number: int = 1
     """1 for the first pass over the photos, 2 to label them a second time."""
@@ -72,13 +73,17 @@ class Open:
     """Another method to propose with than ours."""
 
     host: Annotated[str, tyro.conf.arg(metavar="ADDRESS")] = "127.0.0.1"
-    """Address to listen on; any other than the default lets other machines in."""
+    """Address to listen on; any other than the default lets other machines in. 0.0.0.0 stands for
+    all addresses of this machine."""
+
+    allow_host: HostNames = ()
+    """A name by which other machines call this one, besides its own, as behind a proxy."""
 
     port: int = 0
     """Port to listen on; 0 takes the one that the folder had last, or a free one."""
 
     no_browser: Switch = False
-    """Print the address, and do not open it."""
+    """Print the address, and do not open it. Addresses of several people are printed only."""
 
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
@@ -100,6 +105,14 @@ class Open:
                 f"passes are numbered from 1 to {MOST_PASSES:,}, so there is no pass "
                 f"{self.pass_number}."
             )
+        from annotate.server.hosts import is_name
+
+        for name in self.allow_host:
+            if not is_name(name):
+                raise UsageError(
+                    "--allow-host takes the name of a machine, such as lab.example.org, "
+                    f"not {name}."
+                )
         if not 0 <= self.port < 2**16:
             raise UsageError(f"ports are numbered up to 65535, so there is no port {self.port}.")
 
@@ -109,129 +122,82 @@ class Open:
 
         return [*Tree.of(self.folder).said()]
 
+    def _people(self, store: Store) -> list[str]:
+        """Who labels: as said, or those of the last time where they were several."""
+        from annotate.server.address import folder_id, kept_address
+
+        if not self.annotator:
+            kept = kept_address(folder_id(store))
+            return list(kept.people) if kept and len(kept.people) > 1 else [whoever("")]
+        people = [whoever(name) for name in self.annotator]
+        for name in people:
+            if people.count(name) > 1:
+                raise UsageError(f"{name} is named twice.")
+        return people
+
     def _serve(self) -> int:
         from annotate.store.store import Store
         from annotate.work.doubts import read_doubts
+        from annotate.work.shared_photos import SharedPhotos
         from annotate.work.workbench import Assignment, Workbench
 
-        who = Assignment(
-            whoever(self.annotator), self.pass_number, self.order, self.blind, self.seed
-        )
         doubts = None
         if self.from_diagnosis:
             doubts = read_doubts(self.from_diagnosis, self.cause)
         detector: Method
         detector = self.methods.one()
-        bench = Workbench(Store(self.folder), detector, who, doubts)
-        if doubts is not None and not bench.photos:
+        store = Store(self.folder)
+        people = self._people(store)
+        shared = SharedPhotos(store, doubts)
+        benches = [
+            Workbench(
+                shared,
+                detector,
+                Assignment(name, self.pass_number, self.order, self.blind, self.seed),
+            )
+            for name in people
+        ]
+        if doubts is not None and not shared.by_id:
             raise UsageError(
                 f"{self.from_diagnosis} has the cause {self.cause} of no photo in {self.folder}."
             )
-        if not bench.photos:
+        if not shared.by_id:
             raise UsageError(" ".join([f"{self.folder} holds no photograph.", *self._not_taken()]))
-        for problem in bench.store.problems:
+        for problem in store.problems:
             say(problem, PROGRAM)
         for unread in self._not_taken():
             say(unread, PROGRAM)
         most = self.max_megapixels * 1e6
-        every = bench.photos.values()
+        every = shared.by_id.values()
         say_too_large([one.name for one in every if one.height * one.width > most], PROGRAM)
         if self.order == "confidence":
-            propose_all(bench)
-        progress = bench.progress(bench.cards())
-        left = progress.total - progress.done
-        tell(f"{counted(progress.total, 'photo')} in {self.folder}, {left} to label.")
-        serve(bench, self.host, self.port, browser=not self.no_browser)
+            propose_all(benches)
+        serve(benches, self.host, self.port, self.allow_host, browser=not self.no_browser)
         tell(f"Labels are in {self.folder}.")
         return GOOD
 
 
-def propose_all(bench: Workbench) -> None:
-    """Make all proposals that are missing, so that they can be compared."""
+def propose_all(benches: Sequence[Workbench]) -> None:
+    """Make all proposals that are missing, so that they can be compared.
+
+    Photo by photo, so that what is found for one person is found for all.
+    """
     from skyline_viz.running.batch import sentence
     from skyline_viz.running.progress import ProgressBar
 
-    waiting = [one for one in bench.cards() if one.confidence is None and one.status == "to do"]
+    waiting = sorted(
+        (
+            (card.photo.name, bench, card.photo.id)
+            for bench in benches
+            for card in bench.cards()
+            if card.confidence is None and card.status == "to do"
+        ),
+        key=lambda one: one[0],
+    )
     with ProgressBar(len(waiting), "proposing") as bar:
-        for card in waiting:
+        for name, bench, photo in waiting:
             try:
-                bench.session(card.photo.id)
+                bench.session(photo)
             except Exception as error:  # the page shows it, too
                 say(sentence(error), PROGRAM)
-            bar.advance(card.photo.name)
-
-
-def serve(bench: Workbench, host: str, port: int, *, browser: bool) -> None:
-    """Serve the page until Ctrl-C, and print its address."""
-    import uvicorn
-
-    from annotate.server.app import make_app
-    from skyline_viz.system.loopback import allowed_hosts
-    from skyline_viz.viewer.program.process import has_display
-
-    listener, token = found_again(bench.store, host, port)
-    port = listener.getsockname()[1]
-    app = make_app(bench, token, allowed_hosts(host, port))
-    name = "127.0.0.1" if host in ("0.0.0.0", "::") else host  # noqa: S104
-    address = f"http://{f'[{name}]' if ':' in name else name}:{port}/?token={token}"
-    tell(f"Label at {address}")
-    if host not in ("127.0.0.1", "::1", "localhost"):
-        say(f"{host} lets other machines in; whoever knows the address can change labels.", PROGRAM)
-    tell("Ctrl-C ends.")
-    if browser and has_display():
-        webbrowser.open(address)
-    config = uvicorn.Config(
-        app, log_level="warning", access_log=False, server_header=False, lifespan="on"
-    )
-    server = uvicorn.Server(config)
-
-    def stop() -> None:
-        server.should_exit = True
-
-    with told_by_signals(stop):
-        server.run(sockets=[listener])
-
-
-def found_again(store: Store, host: str, port: int) -> tuple[socket.socket, str]:
-    """A socket and a token: those that the folder had last, as far as they are still to be had.
-
-    Raises:
-        UsageError: As `bound` does.
-    """
-    from annotate.server.address import Address, folder_id, keep_address, kept_address, new_address
-
-    folder = folder_id(store)
-    address = kept_address(folder) or new_address()
-    try:
-        listener = bound(host, port or address.port)
-    except UsageError:
-        if port:
-            raise
-        # a page that is open still tells its token to whoever listens there now
-        address, listener = new_address(), bound(host, 0)
-    try:
-        keep_address(folder, Address(address.token, listener.getsockname()[1]))
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        say(f"the address cannot be kept for the next time: {reason}.", PROGRAM)
-    return listener, address.token
-
-
-def bound(host: str, port: int) -> socket.socket:
-    """A socket that listens on an address.
-
-    Raises:
-        UsageError: The address is taken, or not one of this machine.
-    """
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    # said to be TCP, or answers would wait 40 ms for the other side's acknowledgement
-    listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
-    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    try:
-        listener.bind((host, port))
-        listener.listen()  # before the address is told: whoever comes now waits, and is served
-    except OSError as error:
-        listener.close()
-        reason = (error.strerror or str(error)).lower()
-        raise UsageError(f"cannot listen on {host}, port {port}: {reason}.") from error
-    return listener
+            bar.advance(name)

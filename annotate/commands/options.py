@@ -26,6 +26,16 @@ PhotoFolder: TypeAlias = Annotated[Path, tyro.conf.Positional, tyro.conf.arg(met
 Annotator: TypeAlias = Annotated[str, tyro.conf.arg(metavar="NAME")]
 """Who; empty for whoever runs the command."""
 
+Annotators: TypeAlias = Annotated[
+    tuple[str, ...], tyro.conf.UseAppendAction, tyro.conf.arg(metavar="NAME")
+]
+"""Who, given once for each of them; none for whoever runs the command."""
+
+HostNames: TypeAlias = Annotated[
+    tuple[str, ...], tyro.conf.UseAppendAction, tyro.conf.arg(metavar="NAME")
+]
+"""Names of a machine, given once for each of them."""
+
 FormatName: TypeAlias = Literal["mask", "painted", "ch1", "csv", "json", "coco", "labelme", "cvat"]
 """A format in which labels leave and come back."""
 

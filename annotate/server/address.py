@@ -1,7 +1,8 @@
 """Under which address a folder is served, so that an open page finds its server again.
 
-A page proves with a token that it was opened by whoever started the server. Token and port are
-kept, so that a server that is started again on the same folder has the same ones. They lie in the
+A page proves with a token whose it is: each person is given one by whoever started the server.
+Tokens and port are kept, so that a server that is started again on the same folder has the same
+ones, and with them the names of those for whom it was started. They lie in the
 user's own state folder and not beside the photos: a folder of photos is shared, copied and
 published, and its file system may not know whose a file is. The file is the user's alone, and is
 not believed when anybody else could have written or read it.
@@ -16,31 +17,38 @@ import re
 import secrets
 import stat
 import tempfile
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from time import time
+from typing import Any
 
+from annotate.store.labels import check_annotator
 from annotate.store.store import Store
 
+_LONGEST = 100_000  # bytes of a file that is believed: some hundred people
 _TOKEN = re.compile(r"[A-Za-z0-9_-]{32}")
 _FORGOTTEN = 180 * 86_400.0  # seconds after which the address of a folder is not kept any more
 
 
 @dataclass(frozen=True)
 class Address:
-    """A port, and what a page has to know."""
+    """A port, and what each person's page has to know."""
 
-    token: str
-    """What the page has to know."""
+    tokens: Mapping[str, str] = field(default_factory=dict)
+    """What the page has to know, by the name of the person; also of people of other times."""
+
+    people: tuple[str, ...] = ()
+    """For whom the folder is served."""
 
     port: int = 0
     """Where the server listens; 0 where that is not known yet."""
 
-
-def new_address() -> Address:
-    """An address that nobody knows."""
-    return Address(secrets.token_urlsafe(24))
+    def serving(self, people: Sequence[str]) -> Address:
+        """The same address for these people; those who had no token get one that nobody knows."""
+        new = {one: secrets.token_urlsafe(24) for one in people if one not in self.tokens}
+        return Address({**self.tokens, **new}, tuple(people), self.port)
 
 
 def folder_id(store: Store) -> str:
@@ -67,12 +75,9 @@ def kept_address(folder: str) -> Address | None:
         if not _ours_alone(os.fstat(opened.fileno())):
             return None
         try:
-            said = json.loads(opened.read(1000))
-            token, port = said["token"], said["port"]
-        except (ValueError, KeyError, TypeError):
+            return _believed(json.loads(opened.read(_LONGEST)))
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             return None
-    fits = isinstance(token, str) and _TOKEN.fullmatch(token) and type(port) is int
-    return Address(token, port) if fits and 0 < port < 2**16 else None
 
 
 def keep_address(folder: str, address: Address) -> None:
@@ -90,7 +95,8 @@ def keep_address(folder: str, address: Address) -> None:
     file, temporary = tempfile.mkstemp(dir=path.parent, suffix=".tmp")  # readable by nobody else
     try:
         with os.fdopen(file, "w", encoding="utf-8") as opened:
-            json.dump({"token": address.token, "port": address.port}, opened)
+            said = {"port": address.port, "people": address.people, "tokens": {**address.tokens}}
+            json.dump(said, opened)
             opened.flush()
             os.fsync(opened.fileno())
         Path(temporary).replace(path)
@@ -101,6 +107,17 @@ def keep_address(folder: str, address: Address) -> None:
         with suppress(OSError):
             if old.stat().st_mtime < time() - _FORGOTTEN:
                 old.unlink()
+
+
+def _believed(said: Any) -> Address | None:  # noqa: ANN401  # whatever a file holds
+    """What a file says, where it makes sense."""
+    tokens, people, port = said["tokens"], tuple(said["people"]), said["port"]
+    for name in (*tokens, *people):
+        check_annotator(name)
+    if not all(_TOKEN.fullmatch(one) for one in tokens.values()):
+        return None
+    fits = type(port) is int and 0 < port < 2**16 and set(people) <= set(tokens)
+    return Address(tokens, people, port) if fits else None
 
 
 def _file(folder: str) -> Path:

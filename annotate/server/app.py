@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager
 from pathlib import Path
 
@@ -15,15 +15,14 @@ from starlette.exceptions import HTTPException
 from annotate.engine.edits import EditError
 from annotate.formats import FormatError
 from annotate.server import folder_routes, photo_routes, picture_routes
-from annotate.server.address import pass_id
+from annotate.server.desks import Desk
 from annotate.server.security import Guard
 from annotate.store.database import StoreError
 from annotate.store.history import LogError
 from annotate.store.lines import LineError
 from annotate.store.opened import BusyError
 from annotate.store.store import StaleError
-from annotate.work.learning import Learner
-from annotate.work.shown import NoPictureError, Pictures
+from annotate.work.shown import NoPictureError
 from annotate.work.workbench import UnknownPhotoError, Workbench
 from skyline_viz.constraints import PathError
 from skyline_viz.method import MethodError
@@ -51,19 +50,22 @@ _STATUSES: dict[type[Exception], int] = {
 }
 
 
-def make_app(bench: Workbench, token: str, hosts: frozenset[str]) -> Guard:
+def make_app(benches: Mapping[str, Workbench], hosts: frozenset[str]) -> Guard:
     """The server's application.
 
     Args:
-        bench: What to work with; it is closed with the server.
-        token: What the page has to know.
-        hosts: Host names with ports under which the server may be called.
+        benches: What each person works with, by the token that the person's page has to know. All
+            are of the same labels, which are closed with the server.
+        hosts: Names under which the server may be called, see `hosts.names_for`.
     """
 
     @asynccontextmanager
     async def alive(_: FastAPI) -> AsyncIterator[None]:
         yield
-        bench.close()
+        for bench in benches.values():
+            bench.finish()
+        for bench in benches.values():
+            bench.close()
 
     app = FastAPI(
         title="skyline-annotate",
@@ -72,8 +74,6 @@ def make_app(bench: Workbench, token: str, hosts: frozenset[str]) -> Guard:
         redoc_url=None,
         openapi_url="/api/openapi.json",
     )
-    app.state.bench, app.state.learner = bench, Learner(bench)
-    app.state.pictures = Pictures(bench)
     for kind, status in _STATUSES.items():
         app.add_exception_handler(kind, _sentence(status))
     app.add_exception_handler(RequestValidationError, _invalid)
@@ -83,8 +83,7 @@ def make_app(bench: Workbench, token: str, hosts: frozenset[str]) -> Guard:
     app.add_api_route("/", _page, include_in_schema=False)
     for routes in (folder_routes, photo_routes, picture_routes):
         app.include_router(routes.router, prefix="/api")
-    who = bench.assignment
-    return Guard(app, token, hosts, pass_id(bench.store, who.annotator, who.number))
+    return Guard(app, {token: Desk.of(bench) for token, bench in benches.items()}, hosts)
 
 
 def _page() -> FileResponse:

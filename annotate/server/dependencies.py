@@ -1,4 +1,4 @@
-"""What routes are given: the workbench, and checked parts of their addresses."""
+"""What routes are given: what the person works with, and checked parts of their addresses."""
 
 from __future__ import annotations
 
@@ -6,34 +6,41 @@ from typing import Annotated, TypeAlias
 
 from fastapi import Depends, Path, Request
 
+from annotate.server.desks import Desk
 from annotate.work.learning import Learner
 from annotate.work.shown import Pictures
 from annotate.work.workbench import Workbench
 
 
-def _bench(request: Request) -> Workbench:
-    bench: Workbench = request.app.state.bench
-    return bench
+def _desk(request: Request) -> Desk:
+    desk: Desk = request.state.desk  # which `Guard` has found by the token
+    return desk
 
 
-def _learner(request: Request) -> Learner:
-    learner: Learner = request.app.state.learner
-    return learner
+TheDesk: TypeAlias = Annotated[Desk, Depends(_desk)]
+"""What the person who asks works with."""
 
 
-def _pictures(request: Request) -> Pictures:
-    pictures: Pictures = request.app.state.pictures
-    return pictures
+def _bench(desk: TheDesk) -> Workbench:
+    return desk.bench
+
+
+def _learner(desk: TheDesk) -> Learner:
+    return desk.learner
+
+
+def _pictures(desk: TheDesk) -> Pictures:
+    return desk.pictures
 
 
 Bench: TypeAlias = Annotated[Workbench, Depends(_bench)]
-"""The workbench of the server."""
+"""The labels of the person."""
 
 TheLearner: TypeAlias = Annotated[Learner, Depends(_learner)]
-"""What learns from the labels."""
+"""What learns from them."""
 
 ThePictures: TypeAlias = Annotated[Pictures, Depends(_pictures)]
-"""The pictures of its photos."""
+"""The pictures of their photos."""
 
 PhotoId: TypeAlias = Annotated[int, Path(ge=1, le=2**62)]
 """A photo, never by its path."""

@@ -56,7 +56,7 @@ class Opened:
             PhotoError: It has vanished, or cannot be read any more.
         """
         path = self._store.folder / self._photo.name
-        marks = _marks(path)
+        marks = marks_of(path)
         if marks == self._marks:
             return
         if marks is None:
@@ -69,7 +69,7 @@ class Opened:
             if time.time_ns() - marks[_CHANGED] < _WRITING:
                 raise BusyError(f"{self._photo.name} is being written, or damaged.") from error
             raise
-        if not same or _marks(path) != marks:
+        if not same or marks_of(path) != marks:
             raise ReplacedError(
                 f"{self._photo.name} was replaced by another photo while it was open, so nothing "
                 "more is kept for it; open the folder again to label what is there now."
@@ -84,7 +84,7 @@ class Opened:
             digest, stamp = file_digest(path), Stamp.of(path.stat())
         except OSError:
             return  # it has just vanished
-        if _marks(path) == self._marks:
+        if marks_of(path) == self._marks:
             with suppress(StoreError):  # to be kept the next time; that it fails is said elsewhere
                 self._store.keep_file(self._photo, digest, self.known, stamp)
 
@@ -135,10 +135,10 @@ def _read(store: Store, photo: Photo) -> tuple[U8, Marks]:
     path = store.folder / photo.name
     known = store.photo(photo.id)  # its metadata may have been edited since the folder was read
     for _ in range(_TRIES):
-        marks = _marks(path)
+        marks = marks_of(path)
         pixels, notes = read_photo_with_notes(path)
         digest = file_digest(path)
-        if marks is not None and _marks(path) == marks:
+        if marks is not None and marks_of(path) == marks:
             break
     else:
         raise BusyError(f"{photo.name} is being written by another program.")
@@ -163,8 +163,12 @@ def _read(store: Store, photo: Photo) -> tuple[U8, Marks]:
     return pixels, marks
 
 
-def _marks(path: Path) -> Marks | None:
-    """None where there is no file."""
+def marks_of(path: Path) -> Marks | None:
+    """Marks of a file; None where there is none.
+
+    Raises:
+        PhotoError: It cannot be looked at.
+    """
     try:
         status = path.stat()
     except FileNotFoundError:

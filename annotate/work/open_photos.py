@@ -68,20 +68,36 @@ def detection_bytes(detection: Detection) -> int:
     return sum(arrays.values()) - detection.photo.nbytes
 
 
-class OpenPhotos(Generic[Value]):
-    """Open photos by id, each with the bytes that it takes. Methods may be called by any thread."""
+class Room(Generic[Value]):
+    """Bytes that the open photos of all people may take together, whoever uses them."""
 
     def __init__(self, budget: int = BUDGET) -> None:
+        """Begin with nobody.
+
+        Args:
+            budget: How many.
+        """
+        self.budget = budget
+        self.people: list[OpenPhotos[Value]] = []
+        """What each of them has open."""
+        self.lock = threading.RLock()
+
+
+class OpenPhotos(Generic[Value]):
+    """What one person has open: photos by id, each with its bytes. Any thread may call methods."""
+
+    def __init__(self, room: Room[Value] | None = None) -> None:
         """Begin with none.
 
         Args:
-            budget: Bytes that all of them may take together.
+            room: Where other people have theirs; a room of one's own unless given.
         """
-        self._budget = budget
+        self._room = room or Room()
+        self._room.people.append(self)
         self._photos: OrderedDict[int, tuple[Future[Value], int]] = OrderedDict()
         self._shown: int | None = None
         self._beside = 0
-        self._lock = threading.RLock()
+        self._lock = self._room.lock
 
     @property
     def open(self) -> list[int]:
@@ -91,7 +107,7 @@ class OpenPhotos(Generic[Value]):
 
     @property
     def total(self) -> int:
-        """Bytes that they take, with what is kept beside them."""
+        """Bytes that they take, with what is kept beside them, without those of other people."""
         with self._lock:
             return sum(size for _, size in self._photos.values()) + self._beside
 
@@ -103,7 +119,8 @@ class OpenPhotos(Generic[Value]):
     def take(self, photo: int, size: int) -> tuple[Future[Value], bool]:
         """What a photo is or will be, and whether the caller has to open it.
 
-        The least recently used ones are closed until it fits; that which is shown is never closed.
+        The least recently used ones are closed until it fits, one's own before those of others.
+        That which is shown is never closed.
         """
         with self._lock:
             if photo in self._photos:
@@ -133,14 +150,14 @@ class OpenPhotos(Generic[Value]):
             return another
 
     def keeps(self, photo: Photo) -> bool:
-        """Whether a photo keeps its detection while it is shown or next: both have to fit."""
-        return 2 * (SESSION + KEPT) * photo.height * photo.width <= self._budget
+        """Whether a photo keeps its detection while shown or next: everybody's have to fit."""
+        both = 2 * (SESSION + KEPT) * photo.height * photo.width
+        return both * len(self._room.people) <= self._room.budget
 
     def fits(self, size: int) -> bool:
-        """Whether a photo of so many bytes fits beside the one that is shown."""
+        """Whether a photo of so many bytes fits beside those that are shown."""
         with self._lock:
-            shown = self._photos.get(self._shown) if self._shown is not None else None
-            return (shown[1] if shown else 0) + self._beside + size <= self._budget
+            return sum(one._needed for one in self._room.people) + size <= self._room.budget
 
     def keep_beside(self, photo: int, size: int) -> bool:
         """Whether something of so many bytes may be kept of a photo; it counts from now on.
@@ -150,7 +167,8 @@ class OpenPhotos(Generic[Value]):
         with self._lock:
             self._beside = 0
             own = self._photos[photo][1] if photo in self._photos else 0
-            if own + size > self._budget:
+            others = sum(one._needed for one in self._others)
+            if others + own + size > self._room.budget:
                 return False
             self._beside = size
             self._make_room(photo)
@@ -166,13 +184,48 @@ class OpenPhotos(Generic[Value]):
         with self._lock:
             self._photos.pop(photo, None)
 
-    def close_others(self, photo: int) -> None:
-        """Forget all but one photo and the one that is shown."""
+    def close_others(self, photo: int, *, shown: bool = False) -> None:
+        """Forget all but one photo and those that are shown.
+
+        Args:
+            photo: The photo.
+            shown: Whether what is shown to other people is forgotten as well.
+        """
         with self._lock:
-            for one in [one for one in self._photos if one not in (photo, self._shown)]:
+            for one in self._spare(photo, self._shown):
                 del self._photos[one]
+            for other in self._others:
+                other._close_opened(None if shown else other._shown)
+
+    @property
+    def _others(self) -> list[OpenPhotos[Value]]:
+        return [one for one in self._room.people if one is not self]
+
+    @property
+    def _needed(self) -> int:
+        """Bytes of what is shown, and of what is kept beside it."""
+        shown = self._photos.get(self._shown) if self._shown is not None else None
+        return (shown[1] if shown else 0) + self._beside
+
+    @property
+    def _fit(self) -> bool:
+        return sum(one.total for one in self._room.people) <= self._room.budget
+
+    def _spare(self, *used: int | None) -> list[int]:
+        """All photos but those in use, the least recently used first."""
+        return [one for one in self._photos if one not in used]
 
     def _make_room(self, newest: int) -> None:
-        closable = [one for one in self._photos if one not in (newest, self._shown)]
-        while closable and (len(self._photos) > OPEN_AT_MOST or self.total > self._budget):
-            del self._photos[closable.pop(0)]
+        spare = self._spare(newest, self._shown)
+        while spare and (len(self._photos) > OPEN_AT_MOST or not self._fit):
+            del self._photos[spare.pop(0)]
+        for other in self._others:
+            other._close_opened(other._shown, until_it_fits=True)
+
+    def _close_opened(self, used: int | None, *, until_it_fits: bool = False) -> None:
+        """Forget all but one photo, and those that are just being opened."""
+        for one in self._spare(used):
+            if until_it_fits and self._fit:
+                return
+            if self._photos[one][0].done():
+                del self._photos[one]

@@ -10,9 +10,10 @@ import hashlib
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from concurrent.futures import Future
 from dataclasses import dataclass
 from functools import cached_property
+
+from annotate.work.once import Once
 
 BUDGET = 200_000_000
 """Bytes of the pictures that are kept: all stages of a dozen photos, and a thousand thumbnails."""
@@ -45,7 +46,7 @@ class KeptPictures:
         """
         self._budget, self._total = budget, 0
         self._pictures: OrderedDict[Hashable, Picture] = OrderedDict()
-        self._made: dict[Hashable, Future[Picture]] = {}  # those that somebody is making
+        self._once: Once[Picture] = Once()
         self._lock = threading.Lock()
 
     @property
@@ -65,25 +66,11 @@ class KeptPictures:
             if kept is not None:
                 self._pictures.move_to_end(key)
                 return kept
-            future = self._made.get(key)
-            if mine := future is None:
-                future = self._made[key] = Future()
-        if mine:
-            self._make(key, make, future)
-        return future.result()
-
-    def _make(self, key: Hashable, make: Callable[[], Picture], future: Future[Picture]) -> None:
-        try:
-            picture = make()
-        except BaseException as error:
-            with self._lock:
-                del self._made[key]
-            future.set_exception(error)
-            return
+        picture = self._once.get(key, make)
         with self._lock:
-            del self._made[key]
-            self._keep(key, picture)
-        future.set_result(picture)
+            if key not in self._pictures:  # else somebody who asked at the same time has kept it
+                self._keep(key, picture)
+        return picture
 
     def _keep(self, key: Hashable, picture: Picture) -> None:
         self._pictures[key] = picture

@@ -14,7 +14,6 @@ from annotate.engine.opinions import opinions
 from annotate.store.kept_states import Request, StaleError
 from annotate.store.label_table import require_fit
 from annotate.store.lines import Line
-from annotate.store.opened import Opened
 from annotate.store.operations import (
     Carry,
     Edit,
@@ -30,9 +29,11 @@ from annotate.store.operations import (
     SetTag,
     Undo,
 )
-from annotate.store.store import Photo, Store
+from annotate.store.store import Photo
+from annotate.work.shared_photos import SharedPhotos
 from skyline_viz.arrays import F64, U8, Int
 from skyline_viz.constraints import PathError
+from skyline_viz.detection import Detection
 from skyline_viz.method import Method
 from skyline_viz.methods.registry import method_digest
 
@@ -45,7 +46,7 @@ class Session:
 
     def __init__(
         self,
-        store: Store,
+        photos: SharedPhotos,
         photo: Photo,
         label: int,
         detector: Method,
@@ -56,7 +57,7 @@ class Session:
         """Read the photo, and find its proposal or what has been made of it.
 
         Args:
-            store: Where labels are kept.
+            photos: What everybody who labels the folder shares.
             photo: The photo.
             label: The label to work on.
             detector: What proposes, unless the label has begun with another one.
@@ -70,12 +71,13 @@ class Session:
         self.lock = threading.RLock()
         self.compared: set[tuple[int, int]] = set()
         """Neighbours, by photo and revision, whose lines were tried as a proposal."""
-        self._store = store
-        self._opened = Opened(store, photo)
+        store = self._store = photos.store
+        self._opened = photos.opened(photo)
         self.pixels: U8 = self._opened.pixels
         begun = store.state(label).revision > 0  # before, whatever proposes now may
         self.detector = (begun and store.detector(label)) or detector
-        self.wire = LiveWire(self.pixels, None if blind else self.detector, keep=keep)
+        self._proposing = photos.sharing(self.detector, self._opened)
+        self.wire = LiveWire(self.pixels, None if blind else self._proposing, keep=keep)
         self.state = store.state(label)
         if self.state.revision == 0 and not blind:
             store.propose(label, self._line(), self.detector, self.wire.confidence)
@@ -96,6 +98,10 @@ class Session:
     def proposer(self) -> str:
         """What the detector is known by: SHA-256 of its settings and of what it has learned."""
         return method_digest(self.detector)
+
+    def detect(self) -> Detection:
+        """All stages of the photo, by the detector that made its proposal."""
+        return self._proposing.detect(self.pixels)
 
     def apply(self, operation: Operation, revision: int, id: str | None = None) -> int:  # noqa: A002
         """Do something, and keep it: when this returns, it is on the disk.

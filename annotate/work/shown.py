@@ -15,7 +15,7 @@ from annotate.store.opened import read_whole
 from annotate.store.store import Photo
 from annotate.work import images
 from annotate.work.overlays import overlay, overlays
-from annotate.work.pictures import KeptPictures, Picture
+from annotate.work.pictures import Picture
 from annotate.work.workbench import Workbench
 from skyline_viz.arrays import U8
 from skyline_viz.photo import PhotoError
@@ -37,15 +37,14 @@ class Pictures:
     another photo.
     """
 
-    def __init__(self, bench: Workbench, kept: KeptPictures | None = None) -> None:
-        """Begin with none.
+    def __init__(self, bench: Workbench) -> None:
+        """Begin with those that were made for others who label the same photos.
 
         Args:
             bench: The photos.
-            kept: Where to keep pictures.
         """
         self._bench = bench
-        self._kept = kept or KeptPictures()
+        self._kept = bench.shared.pictures
         self._turns = threading.BoundedSemaphore(_AT_ONCE)
 
     def whole(self, photo: int) -> Picture:

@@ -12,7 +12,6 @@ import numpy as np
 
 from annotate.store.cards import Card
 from annotate.store.store import Photo, Store
-from annotate.work.doubts import columns_of
 from annotate.work.joined import Joined, joined
 from annotate.work.open_photos import (
     BLIND,
@@ -24,6 +23,7 @@ from annotate.work.open_photos import (
 )
 from annotate.work.overlays import overlays
 from annotate.work.session import Session
+from annotate.work.shared_photos import SharedPhotos
 from annotate.work.warming import warm_up
 from skyline_viz.detection import Detection
 from skyline_viz.method import Method
@@ -34,7 +34,6 @@ Order = Literal["name", "confidence", "random"]
 """In which order photos are labelled: by name, the least certain first, or shuffled."""
 
 _SMALL = np.repeat(np.arange(64, dtype=np.uint8) // 32 * 200, 96 * 3).reshape(64, 96, 3)
-_AT_ONCE = 2  # photos that are read or detected at a time, however many are asked for
 
 
 class UnknownPhotoError(LookupError):
@@ -79,45 +78,44 @@ class Progress:
 
 
 class Workbench:
-    """A pass of an annotator over the photos of a folder."""
+    """A pass of an annotator over the photos of a folder, which others may label meanwhile."""
 
     def __init__(
         self,
-        store: Store,
+        shared: SharedPhotos,
         detector: Method,
         assignment: Assignment,
-        doubts: dict[str, int] | None = None,
     ) -> None:
-        """Find the photos.
+        """Begin.
 
         Args:
-            store: The labels.
+            shared: The photos, which other people may label at the same time.
             detector: What proposes.
             assignment: Who labels, and how.
-            doubts: Only photos of these names are labelled; they open at these columns.
         """
-        self.store, self.detector, self.assignment = store, detector, assignment
-        self.photos = {photo.id: photo for photo in store.find()}
-        self.doubts = columns_of(doubts or {}, self.photos.values())
-        if doubts is not None:
-            self.photos = {one: self.photos[one] for one in self.photos if one in self.doubts}
+        self.shared, self.detector, self.assignment = shared, detector, assignment
+        self.store, self.photos, self.doubts = shared.store, shared.by_id, shared.doubts
         self._labels: dict[int, int] = {}
-        self._open: OpenPhotos[Session] = OpenPhotos()
-        self._work = threading.BoundedSemaphore(_AT_ONCE)
+        self._open: OpenPhotos[Session] = OpenPhotos(shared.room)
         self._lock = threading.RLock()
         self._ahead = ThreadPoolExecutor(1, "ahead")
         self._soon = ThreadPoolExecutor(1, "soon")
-        self._soon.submit(warm_up)  # before the first gesture asks
+        if len(shared.room.people) == 1:  # once, before the first gesture asks
+            self._soon.submit(warm_up)
         self._detection: tuple[int, int, Detection] | None = None
         chance = np.random.default_rng([assignment.seed, 1])
         drawn = chance.random(len(self.photos)) < assignment.blind
         by_content = sorted(self.photos.values(), key=lambda photo: photo.digest)
         self._blind = {one.id for one, is_blind in zip(by_content, drawn, strict=True) if is_blind}
 
-    def close(self) -> None:
-        """Finish what is being prepared, and close the labels."""
+    def finish(self) -> None:
+        """Finish what is being prepared."""
         self._ahead.shutdown(cancel_futures=True)
         self._soon.shutdown(cancel_futures=True)
+
+    def close(self) -> None:
+        """Finish what is being prepared, and close the labels, which nobody else may use then."""
+        self.finish()
         self.store.close()
 
     def cards(self) -> list[Card]:
@@ -253,8 +251,8 @@ class Workbench:
             if kept and kept[:2] == (photo, id(session.detector)):
                 return kept[2]
             self._detection = None
-        with self._work:
-            found = session.detector.detect(session.pixels)
+        with self.shared.turns:
+            found = session.detect()
         with self._lock:
             if self._open.keep_beside(photo, detection_bytes(found)):
                 self._detection = (photo, id(session.detector), found)
@@ -294,11 +292,11 @@ class Workbench:
         try:
             label = self.label(photo)
             blind = self.store.is_blind(label)
-            with self._work:
+            with self.shared.turns:
                 self._require_room(photo, blind=blind)
                 one = self.photo(photo)
                 session = Session(
-                    self.store,
+                    self.shared,
                     one,
                     label,
                     self.detector,
@@ -321,8 +319,11 @@ class Workbench:
             return
         one = self.photo(photo)
         keep = self._open.keeps(one)
-        try:
-            require_room(one, keep=keep)
-        except PhotoError:
-            self._open.close_others(photo)
-            require_room(one, keep=keep)
+        for others in (False, True):  # what other people are shown is closed last
+            try:
+                require_room(one, keep=keep)
+            except PhotoError:
+                self._open.close_others(photo, shown=others)
+            else:
+                return
+        require_room(one, keep=keep)

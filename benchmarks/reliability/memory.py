@@ -26,7 +26,7 @@ from testing.programs.browser import chromium
 
 SAMPLE = Path(__file__).resolve().parents[2] / "sample_data" / "images" / "clear-2.jpg"
 OURS = ("127.0.0.1:{port}", "localhost:{port}", "[::1]:{port}")
-OTHERS = ("evil.example", "evil.example:{port}", "127.0.0.1", "127.0.0.1:1", "0.0.0.0:{port}", "")
+OTHERS = ("evil.example", "evil.example:{port}", "127.0.0.2", "127.0.0.2:1", "0.0.0.0:{port}", "")
 ORIGINS = (None, "null", "http://evil.example", "http://evil.example:{port}", "https://localhost")
 TOKENS = (None, "", TOKEN[:-1], TOKEN.upper(), TOKEN)
 RECORDINGS = ("/api/photos/1/recording", "/api/photos/2/recording", "/api/photos/1/stages/cost")

@@ -93,7 +93,7 @@ class _Server(ThreadingHTTPServer):
     def __init__(self, answers: Answers, policy: str) -> None:
         super().__init__((LOOPBACK, 0), _Handler)
         self.answers, self.policy = answers, policy
-        self.hosts = allowed_hosts(LOOPBACK, self.server_address[1])
+        self.hosts = allowed_hosts()
         self.root = f"/{secrets.token_urlsafe(24)}/"
 
     def handle_error(self, *_: object) -> None:

@@ -5,8 +5,6 @@ from contextlib import contextmanager
 
 from playwright.sync_api import sync_playwright
 
-from testing.labelling import TOKEN
-
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = ["--no-sandbox"]
 
@@ -63,7 +61,7 @@ class Page:
     @property
     def address(self):
         """What a server prints."""
-        return getattr(self.client, "address", f"{self.client.base_url}/?token={TOKEN}")
+        return self.client.address
 
     def open(self):
         """Go to the page, or load it again."""

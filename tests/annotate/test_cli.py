@@ -38,6 +38,8 @@ def test_help_and_version(capsys):
         (["open", "alps", "--pass-number", "0"], "there is no pass 0."),
         (["open", "alps", "--port", "99999"], "there is no port 99999."),
         (["open", "alps", "--host", "192.0.2.1"], "cannot listen on 192.0.2.1"),
+        (["open", "alps", "--allow-host", "http://lab"], "takes the name of a machine, such as"),
+        (["open", "alps", "--annotator", "a", "--annotator", "a"], "a is named twice."),
         (["open", "alps", "--bank", "nothing.npz"], "nothing.npz does not exist."),
         (["status", "empty"], "empty has no labels yet"),
         (["export", "empty"], "empty has no labels yet"),

@@ -13,8 +13,7 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from annotate.cli import main as label
 from annotate.work import open_photos
-from annotate.work import workbench as benches
-from annotate.work.open_photos import KEPT, OPEN_AT_MOST, SESSION, OpenPhotos
+from annotate.work.open_photos import KEPT, OPEN_AT_MOST, SESSION, OpenPhotos, Room
 from skyline_viz.cli import main
 from skyline_viz.command_line import sizes
 from skyline_viz.detector import Detector
@@ -31,7 +30,7 @@ class Opening(RuleBasedStateMachine):
 
     def __init__(self):
         super().__init__()
-        self.photos = OpenPhotos(BUDGET)
+        self.photos = OpenPhotos(Room(BUDGET))
         self.sizes = {}
         self.shown = self.newest = None
 
@@ -85,7 +84,7 @@ TestOpening.settings = examples(60, stateful_step_count=25)
 
 
 def test_the_least_recently_used_is_closed_first():
-    photos = OpenPhotos(BUDGET)
+    photos = OpenPhotos(Room(BUDGET))
     for photo in (1, 2, 3):
         photos.take(photo, 300)
     photos.take(1, 300)
@@ -94,7 +93,7 @@ def test_the_least_recently_used_is_closed_first():
 
 
 def test_the_shown_one_stays_however_large_it_is():
-    photos = OpenPhotos(BUDGET)
+    photos = OpenPhotos(Room(BUDGET))
     photos.take(1, 5000)
     photos.show(1)
     for photo in (2, 3, 4):
@@ -125,12 +124,11 @@ def open_all(bench, count):
         yield photo
 
 
-def test_the_next_photo_is_opened_only_where_it_fits(tmp_path, monkeypatch):
+def test_the_next_photo_is_opened_only_where_it_fits(tmp_path):
     one = 48 * 70 * SESSION
     write_hills(tmp_path, count=4)
     for budget, most in ((int(1.5 * one), 1), (int(2.5 * one), 2), (10 * one, OPEN_AT_MOST)):
-        monkeypatch.setattr(benches, "OpenPhotos", lambda budget=budget: OpenPhotos(budget))
-        bench = workbench(tmp_path)
+        bench = workbench(tmp_path, budget=budget)
         try:
             opened = [len(bench._open.open) for _ in open_all(bench, 4)]
             assert max(opened) == most
@@ -139,15 +137,15 @@ def test_the_next_photo_is_opened_only_where_it_fits(tmp_path, monkeypatch):
             bench.close()
 
 
-def test_a_detection_is_kept_only_where_it_fits_and_goes_with_its_photo(tmp_path, monkeypatch):
+def test_a_detection_is_kept_only_where_it_fits_and_goes_with_its_photo(tmp_path):
     one = 48 * 70 * SESSION
     write_hills(tmp_path, count=2)
     for budget, kept in ((int(1.2 * one), False), (3 * one, True)):
-        monkeypatch.setattr(benches, "OpenPhotos", lambda budget=budget: OpenPhotos(budget))
-        bench = workbench(tmp_path)
+        bench = workbench(tmp_path, budget=budget)
         try:
             session = bench.session(1)
-            assert (bench.detection(session) is bench.detection(session)) == kept
+            bench.detection(session)
+            assert (bench._detection is not None) == kept
             with_it = bench._open.total
             bench.session(2)
             bench.prepare_after(2)

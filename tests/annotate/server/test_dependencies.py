@@ -7,25 +7,29 @@ import pytest
 from fastapi import FastAPI
 
 from annotate.server.dependencies import Bench, Column, PhotoId, TheLearner, Tile
+from annotate.server.desks import Desk
 
 
 def asked(place):
     """What a server answers whose route gives back what it was given."""
     app = FastAPI()
-    app.state.bench, app.state.learner = {"a": 1}, {"b": 2}
+    desk = Desk(bench={"a": 1}, learner={"b": 2}, pictures={"c": 3}, shown="pass")
 
     @app.get("/{photo}/{column}/{tile}")
     async def given(photo: PhotoId, column: Column, tile: Tile, bench: Bench, learner: TheLearner):
         return [photo, column, tile, bench, learner]
 
     async def ask():
-        async with httpx.AsyncClient(transport=httpx.ASGITransport(app)) as client:
+        transport = httpx.ASGITransport(
+            lambda scope, *rest: app({**scope, "state": {"desk": desk}}, *rest)
+        )
+        async with httpx.AsyncClient(transport=transport) as client:
             return await client.get(f"http://here/{place}")
 
     return asyncio.run(ask())
 
 
-def test_the_workbench_and_the_learner_are_those_of_the_server():
+def test_the_workbench_and_the_learner_are_those_of_the_person():
     assert asked("1/0/1000").json() == [1, 0, 1000, {"a": 1}, {"b": 2}]
 
 

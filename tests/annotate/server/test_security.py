@@ -2,9 +2,12 @@
 
 import asyncio
 
+import httpx
 import pytest
+from starlette.responses import JSONResponse
 
-from annotate.server.security import PASS_HEADER, Guard
+from annotate.server.security import PASS_HEADER, TOKEN_HEADER, Guard
+from skyline_viz.system.loopback import allowed_hosts
 from testing.labelling import TOKEN
 
 ROUTES = [
@@ -41,7 +44,7 @@ PAGES = ("/", "/static/index.html")
 @pytest.mark.parametrize(("method", "route"), ROUTES)
 class TestRefusals:
     def test_another_host(self, client, method, route):
-        for host in ("evil.example", "127.0.0.1", "127.0.0.1:1", ""):
+        for host in ("evil.example", "127.0.0.1.evil.example", "127.0.0.2:1", "0.0.0.0", ""):
             said = client.request(method, route, headers={"Host": host}, params={"token": TOKEN})
             assert said.status_code in (400, 421)
             assert "hill" not in said.text
@@ -52,8 +55,9 @@ class TestRefusals:
             said = client.request(
                 method, route, headers={"X-Skyline-Token": token}, params={"token": token}
             )
-            assert said.status_code == (200 if code_of_the_page else 401)
-            assert code_of_the_page or "token" in said.json()["detail"]
+            told = route == "/" and token  # by an address that is out of date
+            assert said.status_code == (200 if code_of_the_page and not told else 401)
+            assert said.status_code == 200 or "token" in said.json()["detail"]
 
     def test_another_origin(self, client, method, route):
         here = str(client.base_url).removeprefix("http://").rstrip("/")
@@ -95,10 +99,56 @@ def test_web_sockets_are_closed_before_anything_sees_them():
     async def send(message):
         said.append(message)
 
-    guard = Guard(app, TOKEN, frozenset())
+    guard = Guard(app, {}, frozenset())
     for kind in ("websocket", "something else"):
         asyncio.run(guard({"type": kind, "path": "/api/photos"}, None, send))
     assert [message["type"] for message in said] == ["websocket.close"] * 2
+
+
+@pytest.mark.parametrize(
+    ("path", "headers", "status", "sentence"),
+    [
+        (
+            "/",
+            {"Host": "lab.example"},
+            421,
+            "not called lab.example; --allow-host lab.example lets",
+        ),
+        ("/", {"Host": "[fe80::1]:80"}, 421, "not called [fe80::1]; --allow-host [fe80::1] lets"),
+        ("/", {"Host": "<b>"}, 421, "This server is not called by that name."),
+        (
+            "/?token=old",
+            {TOKEN_HEADER: ""},
+            401,
+            "The token is missing or wrong; open the address that was printed.",
+        ),
+        ("/api/exports/csv", {TOKEN_HEADER: ""}, 401, "The token is missing or wrong"),
+    ],
+)
+def test_who_follows_a_wrong_link_reads_a_sentence(client, path, headers, status, sentence):
+    accept = {"Accept": "text/html,application/xhtml+xml,*/*;q=0.8"}
+    said = client.get(path, headers=headers | accept)
+    assert said.status_code == status
+    assert said.headers["content-type"] == "text/html; charset=utf-8"
+    assert sentence in said.text
+    assert "<b>" not in said.text
+    assert said.text.count("<p>") == 1
+
+
+def test_the_address_at_which_a_request_arrives_is_answered():
+    async def app(scope, receive, send):
+        await JSONResponse("let through")(scope, receive, send)
+
+    async def ask(host, server):
+        guard = Guard(app, {}, allowed_hosts())
+        transport = httpx.ASGITransport(
+            lambda scope, *rest: guard({**scope, "server": server}, *rest)
+        )
+        async with httpx.AsyncClient(transport=transport) as client:
+            return await client.get("http://here/", headers={"Host": host})
+
+    for server, status in ((("192.0.2.7", 8000), 200), (("192.0.2.8", 8000), 421)):
+        assert asyncio.run(ask("192.0.2.7:8000", server)).status_code == status
 
 
 @pytest.mark.parametrize("route", [route for method, route in ROUTES if method == "POST"])

@@ -6,6 +6,7 @@ import pytest
 
 from annotate.store.store import Store
 from annotate.work.doubts import read_doubts
+from annotate.work.shared_photos import SharedPhotos
 from annotate.work.workbench import Assignment, Workbench
 from testing.labelling import DETECTOR, write_hills
 from testing.labels import run
@@ -29,7 +30,7 @@ def test_doubtful_truths_are_opened_where_they_are_doubtful(folder, tmp_path, ca
     document = {"format": "skyline-diagnosis", "version": 1, "photos": photos}
     file = tmp_path / "diagnosis.json"
     file.write_text(json.dumps(document))
-    bench = Workbench(Store(folder), DETECTOR, Assignment("ann"), read_doubts(file))
+    bench = Workbench(SharedPhotos(Store(folder), read_doubts(file)), DETECTOR, Assignment("ann"))
     assert [photo.name for photo in bench.photos.values()] == ["hill-1.png"]
     assert list(bench.doubts.values()) == [30]
     assert [card.photo.name for card in bench.cards()] == ["hill-1.png"]
@@ -101,6 +102,8 @@ def test_doubtful_columns_beyond_the_rims_are_the_rims(folder, tmp_path):
     file = tmp_path / "diagnosis.json"
     for columns, opened in (("[-50, -10]", 0), ("[5000, 6000]", 69)):
         file.write_text(diagnosis_with(columns))
-        bench = Workbench(Store(folder), DETECTOR, Assignment("ann"), read_doubts(file))
+        bench = Workbench(
+            SharedPhotos(Store(folder), read_doubts(file)), DETECTOR, Assignment("ann")
+        )
         assert list(bench.doubts.values()) == [opened]
         bench.close()

@@ -9,9 +9,12 @@ from annotate.store.identity import Photo
 from annotate.store.opened import BusyError
 from annotate.work import open_photos
 from annotate.work.open_photos import (
+    KEPT,
     OPEN_AT_MOST,
     OPENING,
+    SESSION,
     OpenPhotos,
+    Room,
     detection_bytes,
     require_room,
 )
@@ -19,7 +22,7 @@ from testing.labelling import DETECTOR, hills
 
 
 def test_a_photo_is_opened_once():
-    photos = OpenPhotos(100)
+    photos = OpenPhotos(Room(100))
     future, mine = photos.take(1, 10)
     assert mine
     assert photos.take(1, 10) == (future, False)
@@ -30,7 +33,7 @@ def test_a_photo_is_opened_once():
 
 
 def test_the_least_recently_used_is_closed_but_never_the_shown_one():
-    photos = OpenPhotos(100)
+    photos = OpenPhotos(Room(100))
     for one in (1, 2, 3):
         photos.take(one, 10)
     photos.show(1)
@@ -47,7 +50,7 @@ def test_the_least_recently_used_is_closed_but_never_the_shown_one():
 
 
 def test_what_is_kept_beside_a_photo_counts():
-    photos = OpenPhotos(100)
+    photos = OpenPhotos(Room(100))
     photos.take(1, 40)
     photos.take(2, 20)
     photos.show(1)
@@ -64,7 +67,7 @@ def test_what_is_kept_beside_a_photo_counts():
 
 
 def test_a_photo_takes_no_more_than_was_counted():
-    photos = OpenPhotos(100)
+    photos = OpenPhotos(Room(100))
     photos.take(1, 40)
     photos.lighten(1, 50)
     assert photos.total == 40
@@ -80,7 +83,7 @@ def test_a_photo_takes_no_more_than_was_counted():
     st.integers(1, 60),
 )
 def test_photos_never_take_more_than_there_is_but_for_the_two_in_use(steps, size):
-    photos, shown, newest = OpenPhotos(100), None, None
+    photos, shown, newest = OpenPhotos(Room(100)), None, None
     for what, photo in steps:
         is_open = photo in photos.open
         if what == "take":
@@ -113,3 +116,52 @@ def test_a_detection_takes_at_least_its_costs():
     assert taken >= detection.cost.nbytes + detection.edges.nbytes
     assert taken < 20 * detection.cost.nbytes
     assert np.shares_memory(detection.photo, detection.photo)
+
+
+def opened(photos, photo, size):
+    future, mine = photos.take(photo, size)
+    if mine:
+        future.set_result(photo)
+    return future
+
+
+def test_people_share_the_room_and_keep_what_they_are_shown():
+    room = Room(100)
+    ann, bob = OpenPhotos(room), OpenPhotos(room)
+    for one in (1, 2):
+        opened(ann, one, 30)
+    ann.show(1)
+    opened(bob, 3, 30)
+    bob.show(3)
+    assert not bob.fits(41)
+    assert bob.fits(40)
+    opened(bob, 4, 30)  # ann's spare one makes room for it
+    assert (ann.open, bob.open) == ([1], [3, 4])
+    opened(ann, 2, 30)  # and bob's for this
+    assert (ann.open, bob.open) == ([1, 2], [3])
+    assert not ann.keep_beside(1, 41)
+    assert ann.keep_beside(1, 40)
+    assert ann.open == [1]
+
+
+def test_what_others_are_just_opening_or_shown_is_not_closed_before_memory_is_short():
+    room = Room(100)
+    ann, bob = OpenPhotos(room), OpenPhotos(room)
+    opened(ann, 1, 60)
+    ann.show(1)
+    ann.take(2, 60)  # not there yet
+    opened(bob, 3, 60)
+    assert (ann.open, bob.open) == ([1, 2], [3])
+    bob.close_others(3)
+    assert (ann.open, bob.open) == ([1, 2], [3])
+    bob.close_others(3, shown=True)
+    assert (ann.open, bob.open) == ([2], [3])
+
+
+def test_a_detection_is_kept_where_everybody_s_fit():
+    photo = Photo(1, "a.png", "", 10, 10)
+    room = Room(2 * 100 * (SESSION + KEPT))
+    first = OpenPhotos(room)
+    assert first.keeps(photo)
+    OpenPhotos(room)
+    assert not first.keeps(photo)

@@ -101,14 +101,15 @@ def test_a_recording_that_is_gone_is_a_sentence(tmp_path, program):
     [
         (421, "evil.example", {}),
         (421, "evil.example:{port}", {}),
-        (421, "127.0.0.1", {}),
+        (421, "127.0.0.2", {}),
         (421, ["127.0.0.1:{port}", "evil.example"], {}),
         (421, [], {}),
         (403, None, {"Origin": "http://evil.example"}),
         (403, None, {"Origin": "null"}),
         (200, "localhost:{port}", {}),
         (200, "[::1]:{port}", {}),
-        (200, None, {"Origin": "http://localhost:{port}"}),
+        (403, None, {"Origin": "http://localhost:{port}"}),
+        (200, "localhost:{port}", {"Origin": "http://localhost:{port}"}),
     ],
 )
 def test_it_is_called_by_a_name_of_this_machine_and_by_its_own_page(
