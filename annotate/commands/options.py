@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import getpass
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
@@ -107,6 +107,29 @@ def opened(folder: Path) -> Iterator[Store]:
         yield store
     finally:
         store.close()
+
+
+def chosen_passes(store: Store, asked: Sequence[str]) -> list[tuple[str, int]]:
+    """The passes that are meant, each once: those that were named, or all.
+
+    Args:
+        store: The labels.
+        asked: Names of annotators, each with ``:2`` for their second pass, and so on.
+
+    Raises:
+        UsageError: There is no such pass.
+    """
+    found = store.passes()
+    chosen = []
+    for one in asked:
+        who, colon, number = one.rpartition(":")
+        numbered = (who, int(number)) if colon and number.isdecimal() else None
+        meant = next((each for each in found if each in (numbered, (one, 1))), None)
+        if meant is None:
+            names = ", ".join(f"{who}:{number}" for who, number in found) or "none"
+            raise UsageError(f"there is no pass {one}; there are {names}.")
+        chosen.append(meant)
+    return list(dict.fromkeys(chosen)) if asked else found
 
 
 def chosen_pass(store: Store, annotator: str, number: int) -> tuple[str, int]:

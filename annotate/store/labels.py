@@ -60,12 +60,12 @@ class Comment:
 
 
 def named(annotator: str, number: int) -> str:
-    """A pass by name.
+    """A pass by name, as commands take it.
 
     >>> named("ann", 1), named("ann", 2)
-    ('ann', 'ann, pass 2')
+    ('ann', 'ann:2')
     """
-    return annotator if number == 1 else f"{annotator}, pass {number}"
+    return annotator if number == 1 else f"{annotator}:{number}"
 
 
 def check_annotator(name: str) -> str:

@@ -325,7 +325,9 @@ Change: TypeAlias = Drawn | SetStatus
 Operation: TypeAlias = Annotated[Edit | SetTag | SetStatus | Open, Field(discriminator="kind")]
 """Anything that the page does to a photo, but for undo and redo."""
 
-Logged: TypeAlias = Annotated[Operation | Carry | Consensus | Undo | Redo, Field(discriminator="kind")]
+Logged: TypeAlias = Annotated[
+    Operation | Carry | Consensus | Undo | Redo, Field(discriminator="kind")
+]
 """Anything that is kept in the log."""
 
 LOGGED: TypeAdapter[Logged] = TypeAdapter(Logged)
