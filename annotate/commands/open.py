@@ -46,6 +46,9 @@ class Open:
     pass_number: int = 1
     """1 for the first pass over the photos, 2 to label them a second time."""
 
+    reviewer: Annotated[str, tyro.conf.arg(metavar="NAME")] = ""
+    """Who looks the pass of somebody else through, and says what is wrong there."""
+
     order: Literal["name", "confidence", "random"] = "name"
     """In which order: by name, the least certain proposal first, or shuffled."""
 
@@ -109,7 +112,12 @@ class Open:
         from annotate.work.workbench import Assignment, Workbench
 
         who = Assignment(
-            whoever(self.annotator), self.pass_number, self.order, self.blind, self.seed
+            whoever(self.annotator),
+            self.pass_number,
+            self.order,
+            self.blind,
+            self.seed,
+            reviewer=whoever(self.reviewer) if self.reviewer else "",
         )
         doubts = None
         if self.from_diagnosis:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 import tyro
 
+from annotate.store.labels import CONSENSUS
 from skyline_viz.command_line.messages import UsageError, say
 
 if TYPE_CHECKING:
@@ -133,11 +134,11 @@ def chosen_passes(store: Store, asked: Sequence[str]) -> list[tuple[str, int]]:
 
 
 def chosen_pass(store: Store, annotator: str, number: int) -> tuple[str, int]:
-    """The pass that is meant: the one that was named, or the only one.
+    """The pass that is meant: the one that was named, the consensus, or the only one.
 
     Args:
         store: The labels.
-        annotator: A name; empty for the only annotator.
+        annotator: A name; empty for the consensus, or the only annotator.
         number: A number; 0 for the only pass.
 
     Raises:
@@ -148,6 +149,8 @@ def chosen_pass(store: Store, annotator: str, number: int) -> tuple[str, int]:
         for who, which in store.passes()
         if annotator in ("", who) and number in (0, which)
     ]
+    if not annotator and (CONSENSUS, number or 1) in found:
+        return CONSENSUS, number or 1
     if len(found) == 1:
         return found[0]
     passes = ", ".join(f"{who} {which}" for who, which in found or store.passes())

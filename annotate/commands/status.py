@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import dataclass
 
 from annotate.commands.options import PROGRAM, PhotoFolder, opened
-from annotate.store.labels import STATUSES
+from annotate.store.labels import STATUSES, named
 from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
@@ -28,6 +28,9 @@ class Status:
 
     orphans: Switch = False
     """List the labels whose photos are not in the folder any more, with the photos' digests."""
+
+    review: Switch = False
+    """List the photos that need review or are rejected, with what was said of them."""
 
     def run(self) -> int:
         """Print a table; return the exit status."""
@@ -62,6 +65,13 @@ class Status:
             for one in found.orphans:
                 whose = f"{one.annotator}, pass {one.number}, {one.status}"
                 tell(f"{shortened(one.name)} ({one.digest}): {whose}")
+        if self.review:
+            for who, number, every in passes:
+                for photo, card in every.items():
+                    if photo in present and card.status in ("needs review", "rejected"):
+                        said = f", {card.comment}" if card.comment else ""
+                        name = shortened(card.photo.name)
+                        tell(f"{name} ({named(who, number)}): {card.status}{said}")
         notes = [*store.problems, *found.damaged, *aside, *gone(found.orphans)]
         if unread := unread_below(self.folder):
             notes.append(unread)
