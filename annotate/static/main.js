@@ -80,9 +80,10 @@ toolbar.on("tool", ({ id, name, title }) => {
   labelling.say(`${name}. ${title}`);
 });
 labelling.on("document", ({ fresh }) => {
-  const { doubtful = null, doubt = "", carried = "", comment = null } = labelling.document ?? {};
-  if (!fresh) return;
-  if (comment) labelling.say(`${remark(comment)}.`.replace(/\.\.$/, "."));
+  const { document: shown } = labelling;
+  if (!fresh || !shown) return;
+  const { doubtful, doubt, carried, comment } = shown;
+  if (comment) labelling.say(remark(comment));
   else if (doubtful !== null) {
     line.goTo(doubtful);
     labelling.say(`A diagnosis doubts the truth around column ${doubtful}.`);

@@ -135,9 +135,18 @@ export class Actions extends Events {
     if (!photo || !this.#makesSense(photo, status)) return;
     const leaves = goOn && !this.#sheet.shown;
     if (goOn && !leaves) this.#sheet.step(1);
-    const already = photo.status === status && !comment && !this.#labelling.queue.of(photo.id).length;
-    if (already) await this.#goOn(leaves, photo, `${photo.name} is ${status} already.`);
+    if (!comment && this.#has(photo, status)) await this.#goOn(leaves, photo, `${photo.name} is ${status} already.`);
     else await this.#send(photo, status, leaves, comment);
+  }
+
+  /**
+   * Whether a photo has a status, and nothing waits that would change it.
+   *
+   * @param {Document | ShownPhoto} photo
+   * @param {Status} status
+   */
+  #has(photo, status) {
+    return photo.status === status && !this.#labelling.queue.of(photo.id).length;
   }
 
   /**
@@ -231,7 +240,9 @@ export class Actions extends Events {
 
   /** What a diagnosis or the detector doubts of the photo that is open, or where its line is from; nothing most often. */
   #doubts() {
-    const { doubtful = null, doubt = "", carried = "", comment = null } = this.#labelling.document ?? {};
+    const { document: shown } = this.#labelling;
+    if (!shown) return "";
+    const { doubtful, doubt, carried, comment } = shown;
     if (comment) return ` Of this one says ${remark(comment)}`;
     if (doubtful !== null) return ` A diagnosis doubts the truth around column ${doubtful} of this one.`;
     if (carried) return ` The line of this one is carried over from ${carried}; Undo gives the detector's own.`;

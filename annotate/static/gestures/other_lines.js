@@ -6,11 +6,24 @@ import { ApiError, get } from "../server/api.js";
 /** @import { Labelling } from "../labelled/labelling.js" */
 /** @import { Previewer } from "../labelled/previewer.js" */
 /** @import { Selection } from "../labelled/selection.js" */
-/** @import { Take } from "../types.js" */
+/** @import { ShownAlternative, Take } from "../types.js" */
 
 /** @param {Take} take */
 function where({ first, rows }) {
   return `columns ${first} to ${first + rows.length - 1}`;
+}
+
+/**
+ * What is offered, in words.
+ *
+ * @param {ShownAlternative[]} others
+ */
+function offering(others) {
+  const take = others[0]?.take;
+  if (take) return `Passes differ in ${where(take)}. A number takes the line of one there, Escape leaves.`;
+  return others.length
+    ? `${counted(others.length, "line")} along other ridges, the likeliest first. A number takes one, Escape leaves.`
+    : "There is no other ridge to follow.";
 }
 
 /**
@@ -39,10 +52,7 @@ export function otherLines({ labelling, selection, previewer }) {
         if (now?.id !== shown.id || now.revision !== shown.revision) return; // they are of another line
         offered = shown.revision;
         selection.offer(alternatives);
-        if (alternatives[0]?.take) labelling.say(`Passes differ in ${where(alternatives[0].take)}. A number takes the line of one there, Escape leaves.`);
-        else labelling.say(alternatives.length
-          ? `${counted(alternatives.length, "line")} along other ridges, the likeliest first. A number takes one, Escape leaves.`
-          : "There is no other ridge to follow.");
+        labelling.say(offering(alternatives));
       } catch (error) {
         labelling.say(ApiError.of(error).message, true);
       }
