@@ -30,7 +30,7 @@ Name: TypeAlias = Annotated[str, Field(min_length=1, max_length=LONGEST_NAME + 2
 """A pass by name: its annotator, and its number where that is not 1."""
 
 Words: TypeAlias = Annotated[
-    str, Field(max_length=LONGEST_COMMENT, pattern=r"^([^\x00-\x1f\x7f]*\S)?$")
+    str, Field(max_length=LONGEST_COMMENT, pattern=r"^([^\x00-\x1f\x7f]*[^\x00-\x1f\x7f\s])?$")
 ]
 """A short text on one line, or nothing."""
 
