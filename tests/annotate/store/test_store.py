@@ -84,7 +84,7 @@ def test_passes_are_kept_apart(store):
 def test_status_tags_and_time_follow_from_the_log(store, monkeypatch):
     label = store.begin(1, "ann", 1)
     clock = iter([100.0, 110.0, 115.0, 1000.0, 1001.0])
-    monkeypatch.setattr("annotate.store.store.time", lambda: next(clock))
+    monkeypatch.setattr("annotate.store.kept_states.time", lambda: next(clock))
     store.append(label, -1, "open", {})
     anchor(store, label, 3)
     store.append(label, -1, "tag", {"tag": "fog", "on": True})
@@ -177,6 +177,6 @@ def test_several_operations_are_kept_at_once_or_none_is(store):
 def test_labels_of_one_photo(store):
     for photo in (1, 2):
         for who in ("ann", "bob"):
-            anchor(store, store.begin(photo, who, 1), 3)
+            store.append(store.begin(photo, who, 1), -1, "tag", {"tag": "fog", "on": True})
     found = [(one.name, one.annotator) for one in store.labels(photo=2)]
     assert found == [("hill-1.png", "ann"), ("hill-1.png", "bob")]
