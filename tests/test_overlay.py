@@ -93,7 +93,7 @@ def test_lines_that_agree_all_show_the_first_on_top():
     draw_lines(picture, [(level(30), one) for one in colours], 2)
     column = picture[:, 40].astype(int)
     rows = [np.flatnonzero(np.abs(column - one).sum(axis=1) < 12) for one in colours]
-    assert set(rows[0]) == {29, 30}
+    assert {29, 30} <= set(rows[0].tolist())
     assert all(len(one) for one in rows)
     assert rows[2].max() > rows[1].max() > rows[0].max()
 
