@@ -11,7 +11,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Field, Strict, TypeAdapter
 
 from annotate.engine import steering
-from annotate.engine.edits import Edits, Origin
+from annotate.engine.edits import EditError, Edits, Origin
 from annotate.store.labels import LONGEST_COMMENT, LONGEST_NAME, Status
 
 Place: TypeAlias = Annotated[int, Field(ge=-100_000, le=100_000)]
@@ -249,12 +249,19 @@ class Take(_Rows):
 
 
 class Consensus(_Rows):
-    """What several passes have in common; the program does so by itself."""
+    """What several passes have in common, column by column; the program does so by itself."""
 
     kind: Literal["consensus"] = "consensus"
     apart: Annotated[list[Point], Field(max_length=100_000)] = []
     """First and last column of each span in which they do not agree. The line there is that of the
     pass nearest to the others, until somebody has decided."""
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with these rows."""
+        whole = self.first == 0 and len(self.rows) == edits.width
+        if not whole or any(not 0 <= one <= other < edits.width for one, other in self.apart):
+            raise EditError("a consensus is one of all columns of its photo.")
+        return super().on(edits)
 
 
 class SetTag(_Operation):

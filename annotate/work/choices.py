@@ -36,7 +36,9 @@ class Choice:
 
 
 def spans_apart(state: State, line: Skyline | None) -> list[tuple[int, int]]:
-    """First and last column of the spans in which passes differ and nobody has changed the line.
+    """First and last column of the spans in which passes differ and nobody has decided.
+
+    Whoever changes the line in a span decides, and whoever takes that of a pass, be it the same.
 
     Args:
         state: A label of the consensus; of any other there are none.
@@ -45,12 +47,11 @@ def spans_apart(state: State, line: Skyline | None) -> list[tuple[int, int]]:
     found = state.consensus
     if found is None or line is None:
         return []
-    same = np.array(found.rows) == line.rows[found.first : found.first + len(found.rows)]
-    return [
-        (first, last)
-        for first, last in found.apart
-        if same[first - found.first : last + 1 - found.first].all()
-    ]
+    waits = np.array(found.rows) == line.rows  # it is of all columns
+    for change in state.done[state.done.index(found) :]:
+        if isinstance(change, Take):
+            waits[change.first : change.first + len(change.rows)] = False
+    return [(first, last) for first, last in found.apart if waits[first : last + 1].all()]
 
 
 def nearest_span(spans: Sequence[tuple[int, int]], column: int) -> tuple[int, int]:

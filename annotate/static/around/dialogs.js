@@ -107,12 +107,12 @@ export function showTags(labelling, photo, set) {
 /**
  * Ask for a sentence on a photo, and with which status it is said.
  *
- * @param {{name: string, comment: {text: string} | null}} photo
+ * @param {{name: string}} photo
  * @param {(status: "needs review" | "rejected", words: string) => void} say
  */
 export function showComment(photo, say) {
   box("comment-title").textContent = `Say what is wrong with ${photo.name}`;
-  input("comment").value = photo.comment?.text ?? "";
+  input("comment").value = "";
   find("comment-form", HTMLFormElement).onsubmit = ({ submitter }) => {
     const words = input("comment").value.trim();
     if (words) say(submitter?.id === "comment-reject" ? "rejected" : "needs review", words);

@@ -7,7 +7,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from annotate.engine.edits import Edits
+from annotate.engine.edits import EditError, Edits
 from annotate.store import checkpoints
 from annotate.store import history as log
 from annotate.store.history import LogError, folded
@@ -284,3 +284,13 @@ def test_a_consensus_changes_no_status_and_is_undone_as_a_whole():
 def test_a_comment_is_one_short_line(words):
     with pytest.raises(ValidationError):
         SetStatus(status="rejected", comment=words)
+
+
+@pytest.mark.parametrize(
+    ("rows", "apart"), [(WIDTH - 1, []), (WIDTH, [(3, WIDTH)]), (WIDTH, [(9, 3)])]
+)
+def test_a_consensus_is_one_of_the_whole_photo(rows, apart):
+    origins = [("solved", rows)]
+    told = Consensus(first=0, rows=[5] * rows, origins=origins, of=["ann"], apart=apart)
+    with pytest.raises(EditError, match="of all columns"):
+        after(told)

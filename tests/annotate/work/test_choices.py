@@ -25,6 +25,8 @@ def test_spans_wait_until_somebody_has_changed_the_line_there():
     rows[64] = 12
     assert spans_apart(waiting, Skyline(rows=rows)) == [(20, 29)]
     assert spans_apart(waiting, None) == []
+    kept = Take(first=20, rows=[10] * 10, origins=[("solved", 10)], of=["ann"])  # as it is
+    assert spans_apart(waiting.after(kept, 2.0, 2), LINE) == [(60, 69)]
     assert spans_apart(State(Edits(48, 100)), LINE) == []
 
 
