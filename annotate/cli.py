@@ -5,10 +5,12 @@ from typing import Any
 
 import tyro
 
+from annotate.commands.agreement import Agreement
+from annotate.commands.consensus import Consensus
 from annotate.commands.open import Open
 from annotate.commands.options import PROGRAM
 from annotate.commands.repairs import Repair
-from annotate.commands.reports import Agreement, Status
+from annotate.commands.status import Status
 from annotate.commands.transfer import Backup, Export, Import
 from skyline_viz import __version__
 from skyline_viz.command_line.methods import Methods, described, spelt_out
@@ -49,6 +51,7 @@ def commands(methods: Methods) -> dict[str, Command]:
         "import": Import(missing, missing),
         "status": Status(missing),
         "agreement": Agreement(missing),
+        "consensus": Consensus(missing),
         "backup": Backup(missing),
         "repair": Repair(missing),
     }

@@ -1,7 +1,7 @@
 """Pictures of skylines: lines on photos."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import cv2
 import numpy as np
@@ -19,6 +19,7 @@ __all__ = [
     "TRUTH",
     "Colour",
     "css",
+    "draw_lines",
     "draw_overlay",
     "line_width",
 ]
@@ -57,17 +58,37 @@ def draw_overlay(
     thick = line_width(height, width) if thick is None else thick
     rim = max(1, round(thick / 2))
     lines = []
-    for line, colour, across in ((truth, TRUTH, thick + 2 * rim), (skyline, PATH, thick)):
+    for line, colour in ((truth, TRUTH), (skyline, PATH)):
         if line is None:
             continue
         if line.width != width:
             raise SkylineError(f"the photo is {width} columns wide, the skyline {line.width}")
-        lines.append(([_fixed_point(stroke) for stroke in _strokes(line)], colour, across))
-    for strokes, _, across in lines * (not bare):  # all halos lie below all lines
-        _draw(picture, strokes, HALO, across + 2 * rim)
-    for strokes, colour, across in lines:
-        _draw(picture, strokes, colour, across)
+        lines.append((line, colour))
+    wide = {TRUTH: thick + 2 * rim, PATH: thick}
+    _draw_all(picture, lines, [wide[colour] for _, colour in lines], rim, halo=not bare)
     return picture
+
+
+def draw_lines(
+    picture: U8,
+    lines: Sequence[tuple[Skyline, Colour]],
+    thick: int,
+    scale: float = 1.0,
+    corner: tuple[int, int] = (0, 0),
+) -> None:
+    """Draw lines, each in its colour, on a part of their photo. Where they agree all can be seen.
+
+    Args:
+        picture: ``(h, w, 3)`` uint8 RGB, which is drawn on.
+        lines: Lines of the whole photo, the one that is drawn last being the first.
+        thick: Width of that, in pixels of the picture; the others are wider.
+        scale: Pixels of the picture a pixel of the photo.
+        corner: Column and row of the photo in the picture's upper left corner.
+    """
+    rim = max(1, round(thick / 2))
+    lowest = list(reversed(lines))
+    widths = [thick + 2 * rim * place for place in reversed(range(len(lines)))]
+    _draw_all(picture, lowest, widths, rim, scale, corner)
 
 
 def line_width(height: int, width: int) -> int:
@@ -86,6 +107,28 @@ def css(colour: Colour) -> str:
     '#ff2d95'
     """
     return f"#{bytes(colour).hex()}"
+
+
+def _draw_all(
+    picture: U8,
+    lines: Sequence[tuple[Skyline, Colour]],
+    widths: Sequence[int],
+    rim: int,
+    scale: float = 1.0,
+    corner: tuple[int, int] = (0, 0),
+    *,
+    halo: bool = True,
+) -> None:
+    """Draw lines, the lowest first, in these widths; all halos lie below all lines."""
+    shift = 0.5 - np.array(corner)  # pixel centres are whole, and corners half a pixel off
+    strokes = [
+        [_fixed_point((stroke + shift) * scale - 0.5) for stroke in _strokes(line)]
+        for line, _ in lines
+    ]
+    for places, across in zip(strokes, widths, strict=True) if halo else ():
+        _draw(picture, places, HALO, across + 2 * rim)
+    for places, (_, colour), across in zip(strokes, lines, widths, strict=True):
+        _draw(picture, places, colour, across)
 
 
 def _draw(picture: U8, strokes: list[npt.NDArray[np.int32]], colour: Colour, across: int) -> None:

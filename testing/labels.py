@@ -42,9 +42,9 @@ POISON = [
 ]
 
 
-def label(folder, annotator="ann", number=1, row=None, photos=2):
+def label(folder, annotator="ann", number=1, row=None, photos=2, **how):
     """Accept the proposals of some photos; with `row`, after drawing a level line there."""
-    bench = workbench(folder, annotator, number=number)
+    bench = workbench(folder, annotator, number=number, **how)
     for photo in list(bench.photos)[:photos]:
         session = bench.session(photo)
         if row is not None:

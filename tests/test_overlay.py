@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from skyline_viz.colours import ALTERNATIVE, HALO, PATH, TRUTH
-from skyline_viz.overlay import draw_overlay, line_width
+from skyline_viz.overlay import draw_lines, draw_overlay, line_width
 from skyline_viz.skyline import Skyline, SkylineError
 
 HEIGHT, WIDTH = 60, 80
@@ -92,3 +92,21 @@ def test_a_line_of_one_pixel_hides_nothing_else():
     assert changed[:, 40].sum() <= 2  # it lies between two rows
     wide = (draw_overlay(PHOTO, level(30), thick=9) != PHOTO).any(axis=2)
     assert wide[:, 40].sum() > (draw_overlay(PHOTO, level(30)) != PHOTO).any(axis=2)[:, 40].sum()
+
+
+def test_lines_that_agree_all_show_the_first_on_top():
+    picture = PHOTO.copy()
+    colours = (PATH, TRUTH, ALTERNATIVE)
+    draw_lines(picture, [(level(30), one) for one in colours], 2)
+    column = picture[:, 40].astype(int)
+    rows = [np.flatnonzero(np.abs(column - one).sum(axis=1) < 12) for one in colours]
+    assert {29, 30} <= set(rows[0].tolist())
+    assert all(len(one) for one in rows)
+    assert rows[2].max() > rows[1].max() > rows[0].max()
+
+
+def test_a_part_of_a_photo_is_drawn_as_large_as_it_is_wanted():
+    picture = np.full((80, 160, 3), 150, np.uint8)
+    draw_lines(picture, [(level(30), PATH)], 2, scale=4.0, corner=(20, 20))
+    column = picture[:, 80]
+    assert tuple(column[39]) == tuple(column[40]) == PATH  # 10 rows below the corner

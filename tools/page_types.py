@@ -9,6 +9,7 @@ from pathlib import Path
 from pydantic import TypeAdapter
 
 from annotate.server import messages
+from annotate.server.alternatives import Alternatives
 from annotate.server.explained import Explained
 from annotate.store.operations import Rough
 from annotate.work.learning import Learning
@@ -23,7 +24,7 @@ ANSWERED = (
     messages.Document,
     messages.Part,
     messages.Margins,
-    messages.Alternatives,
+    Alternatives,
     Explained,
     messages.Sheet,
     Learning,

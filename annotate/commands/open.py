@@ -53,6 +53,9 @@ class Open:
     pass_number: int = 1
     """1 for the first pass over the photos, 2 to label them a second time."""
 
+    reviewer: Annotated[str, tyro.conf.arg(metavar="NAME")] = ""
+    """Who looks the pass of somebody else through, and says what is wrong there."""
+
     order: Literal["name", "confidence", "random"] = "name"
     """In which order: by name, the least certain proposal first, or shuffled."""
 
@@ -148,12 +151,15 @@ class Open:
         detector = self.methods.one()
         store = Store(self.folder)
         people = self._people(store)
+        reviewer = whoever(self.reviewer) if self.reviewer else ""
         shared = SharedPhotos(store, doubts)
         benches = [
             Workbench(
                 shared,
                 detector,
-                Assignment(name, self.pass_number, self.order, self.blind, self.seed),
+                Assignment(
+                    name, self.pass_number, self.order, self.blind, self.seed, reviewer=reviewer
+                ),
             )
             for name in people
         ]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import getpass
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 import tyro
 
+from annotate.store.labels import CONSENSUS
 from skyline_viz.command_line.messages import UsageError, say
 
 if TYPE_CHECKING:
@@ -119,12 +120,35 @@ def opened(folder: Path) -> Iterator[Store]:
         store.close()
 
 
-def chosen_pass(store: Store, annotator: str, number: int) -> tuple[str, int]:
-    """The pass that is meant: the one that was named, or the only one.
+def chosen_passes(store: Store, asked: Sequence[str]) -> list[tuple[str, int]]:
+    """The passes that are meant, each once: those that were named, or all.
 
     Args:
         store: The labels.
-        annotator: A name; empty for the only annotator.
+        asked: Names of annotators, each with ``:2`` for their second pass, and so on.
+
+    Raises:
+        UsageError: There is no such pass.
+    """
+    found = store.passes()
+    chosen = []
+    for one in asked:
+        who, colon, number = one.rpartition(":")
+        numbered = (who, int(number)) if colon and number.isdecimal() else None
+        meant = next((each for each in found if each in (numbered, (one, 1))), None)
+        if meant is None:
+            names = ", ".join(f"{who}:{number}" for who, number in found) or "none"
+            raise UsageError(f"there is no pass {one}; there are {names}.")
+        chosen.append(meant)
+    return list(dict.fromkeys(chosen)) if asked else found
+
+
+def chosen_pass(store: Store, annotator: str, number: int) -> tuple[str, int]:
+    """The pass that is meant: the one that was named, the consensus, or the only one.
+
+    Args:
+        store: The labels.
+        annotator: A name; empty for the consensus, or the only annotator.
         number: A number; 0 for the only pass.
 
     Raises:
@@ -135,6 +159,8 @@ def chosen_pass(store: Store, annotator: str, number: int) -> tuple[str, int]:
         for who, which in store.passes()
         if annotator in ("", who) and number in (0, which)
     ]
+    if not annotator and (CONSENSUS, number or 1) in found:
+        return CONSENSUS, number or 1
     if len(found) == 1:
         return found[0]
     passes = ", ".join(f"{who} {which}" for who, which in found or store.passes())

@@ -53,8 +53,8 @@ class Export:
     status: Literal["accepted", "all"] = "accepted"
     """Which labels: the accepted ones, or all that have a line."""
 
-    annotator: Annotator = ""
-    """Whose labels, where there are several annotators."""
+    annotator: Annotated[str, tyro.conf.arg(metavar="NAME", aliases=["--pass"])] = ""
+    """Whose labels, where there are several annotators; the consensus where there is one."""
 
     pass_number: int = 0
     """Which pass, where there are several."""

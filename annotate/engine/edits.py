@@ -2,7 +2,7 @@
 
 `Edits` is a value: each change gives a new one, and the order of changes does not need to be known
 to solve it. Where two changes contradict each other, the later one holds: an anchor takes the place
-of the straight span in whose columns it lies, and of a piece of a drawn one; a span takes the place
+of the straight span in whose columns it lies, and of a piece of any other; a span takes the place
 of anchors and cuts other spans; a guide takes the place of both. Anchors and spans are stronger
 than the brush, guides and sides, which only steer what is solved: what they forbid is allowed again
 around an anchor, see `steering.clearings`.
@@ -22,10 +22,6 @@ from annotate.engine.steering import Ground, Left, Steering, Stroke, side_of
 from skyline_viz.arrays import Bool, runs
 from skyline_viz.constraints import Anchor, StraightSpan
 
-SpanKind = Literal["straight", "drawn"]
-"""How a span came about: a straight line between two pixels, or drawn by hand."""
-
-
 Origin = Literal["proposal", "solved", "straight", "drawn"]
 ORIGINS: tuple[Origin, ...] = get_args(Origin)
 """Where the row of a column is from: offered by the detector and not changed since; solved under
@@ -40,7 +36,10 @@ class EditError(ValueError):
 class Span:
     """Columns in which the annotator has fixed the row of the line."""
 
-    kind: SpanKind
+    kind: Origin
+    """How its rows came about: straight between two pixels, drawn by hand, or, where they are taken
+    from another pass, as in that one."""
+
     first: int
     """Its first column."""
 
@@ -92,7 +91,7 @@ class Edits:
         for span in self.spans:
             if not span.first <= column <= span.last:
                 spans.append(span)
-            elif span.kind == "drawn":
+            elif span.kind != "straight":
                 spans += span.without(column - around, column + around)
         strokes = (*self.strokes, left) if left else self.strokes
         return self._with(anchors={**self.anchors, column: row}, spans=spans, strokes=strokes)
@@ -125,6 +124,37 @@ class Edits:
         for column, row in ((first, min(span.rows)), (span.last, max(span.rows))):
             self._require_inside(column, row)
         return self._span(span)
+
+    def take(
+        self,
+        first: int,
+        rows: Sequence[int],
+        origins: Iterable[tuple[Origin, int]],
+        hidden: Iterable[tuple[int, int]],
+    ) -> Edits:
+        """Let the line be what other passes have, a row a column from column `first` on.
+
+        Args:
+            first: The first column.
+            rows: A row for each column.
+            origins: Where these are from: an origin, and in how many columns, from left to right.
+            hidden: First and last column of each run in which the line cannot be seen.
+        """
+        origins, last = list(origins), first + len(rows) - 1
+        if not rows or sum(many for _, many in origins) != len(rows):
+            raise EditError("what is taken over has an origin for each of its columns.")
+        for column, row in ((first, min(rows)), (last, max(rows))):
+            self._require_inside(column, row)
+        taken, start = self, 0
+        for origin, many in origins:
+            taken = taken._span(Span(origin, first + start, tuple(rows[start : start + many])))
+            start += many
+        taken = taken.hide(first, last, hidden=False)
+        for one, other in hidden:
+            if not first <= one <= other <= last:
+                raise EditError("what is taken over is hidden in columns that it does not have.")
+            taken = taken.hide(one, other)
+        return taken
 
     def forbid(
         self, points: Iterable[tuple[int, int]], radius: int, *, allow: bool = False

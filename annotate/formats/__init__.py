@@ -11,7 +11,7 @@ csv       ``NAME.csv``: column, row, visible        which columns are visible
 json      ``labels.json``                           everything
 coco      ``annotations-polygon.json``,             nothing
           ``annotations-rle.json``
-labelme   ``NAME.json``                             which columns are visible, tags
+labelme   ``NAME.json``                             which columns are visible, tags, comment
 cvat      ``annotations.xml``                       which columns are visible, tags
 ========  ========================================  ==========================================
 
@@ -90,6 +90,7 @@ WITHOUT_PHOTOS = ("csv", "json")
 """Formats that say nothing of a photo's file but its name."""
 
 _LOSES_VISIBILITY = ("mask", "ch1", "coco")
+_CARRIES_COMMENTS = ("json", "labelme")
 
 
 @dataclass(frozen=True)
@@ -149,6 +150,12 @@ def export_labels(
                 notes.append(
                     f"{entry.label.name}: {format} cannot say which columns are not visible."
                 )
+    if format not in _CARRIES_COMMENTS:
+        notes += [
+            f"{entry.label.name}: {format} cannot carry what {entry.label.comment.by} says of it."
+            for entry in entries
+            if entry.label.comment
+        ]
     make_folder(out.parent)
     with passing_folder(".export-", out.parent) as folder:
         inside = folder / "whole"

@@ -33,7 +33,7 @@ def write_labelme(entries: list[Entry], folder: Path) -> None:
                 "label": _LINE,
                 "points": run.tolist() if len(run) > 1 else [*run.tolist(), *run.tolist()],
                 "group_id": None,
-                "description": "",
+                "description": str(label.comment or ""),
                 "shape_type": "linestrip",
                 "flags": {},
             }

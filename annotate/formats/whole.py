@@ -16,7 +16,15 @@ from annotate.formats.documents import json_of
 from annotate.formats.importing import Task
 from annotate.formats.orphans import gone
 from annotate.store.contents import Contents
-from annotate.store.labels import MOST_PASSES, Label, Status, check_annotator
+from annotate.store.labels import (
+    LONGEST_COMMENT,
+    LONGEST_NAME,
+    MOST_PASSES,
+    Comment,
+    Label,
+    Status,
+    check_annotator,
+)
 from skyline_viz.datasets.line_documents import LABELS
 from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.files import write_text
@@ -48,6 +56,11 @@ class _Line(_Part):
     visible: Annotated[list[bool], Field(min_length=1, max_length=_SIDE)]
 
 
+class _Comment(_Part):
+    text: Annotated[str, Field(max_length=LONGEST_COMMENT)]
+    by: Annotated[str, Field(max_length=LONGEST_NAME)]
+
+
 class _Label(_Part):
     name: Annotated[str, Field(min_length=1, max_length=4096)]
     digest: Digest
@@ -64,6 +77,7 @@ class _Label(_Part):
     seconds: Annotated[FiniteFloat, Field(ge=0)]
     detector: Annotated[str, Field(max_length=1000)]
     blind: bool
+    comment: _Comment | None = None
 
 
 def write_json(entries: list[Entry], folder: Path) -> None:
@@ -76,6 +90,7 @@ def write_json(entries: list[Entry], folder: Path) -> None:
                 "visible": entry.skyline.visible.tolist(),
             },
             "origin": [ORIGINS[one] for one in entry.label.origin.tolist()],
+            "comment": entry.label.comment and vars(entry.label.comment),
         }
         labels.append(label)
     document = {"format": FORMAT, "version": _VERSION, "labels": labels}
@@ -142,7 +157,10 @@ def _label(said: object, file: Path, place: int) -> Label:
         skyline = Skyline(rows=rows, visible=np.array(told.skyline.visible))
         told.name.encode()
         return Label(
-            **told.model_dump(exclude={"skyline", "origin", "annotator", "tags", "operations"}),
+            **told.model_dump(
+                exclude={"skyline", "origin", "annotator", "tags", "operations", "comment"}
+            ),
+            comment=Comment(**vars(told.comment)) if told.comment else None,
             annotator=check_annotator(told.annotator),
             tags=tuple(told.tags),
             operations=tuple(told.operations),

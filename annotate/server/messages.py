@@ -9,17 +9,17 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from annotate.engine.edits import ORIGINS
-from annotate.engine.guide import Guide, along
+from annotate.engine.guide import Guide
 from annotate.engine.steering import Ground, Side, Stroke
 from annotate.formats import TITLES
 from annotate.store.cards import Card
-from annotate.store.labels import HIDDEN_BY, STATUSES, TAGS, Status
+from annotate.store.labels import HIDDEN_BY, STATUSES, TAGS, Comment, Status
 from annotate.store.operations import Operation, Place, spoken
+from annotate.work.choices import spans_apart
 from annotate.work.images import BAND, TILE
 from annotate.work.session import Session
 from annotate.work.workbench import Progress
 from skyline_viz.arrays import F64, Int
-from skyline_viz.certainty.other_lines import OtherLine
 from skyline_viz.overlay import ALTERNATIVE, ANCHOR, HALO, PATH, css
 from skyline_viz.system.memory import photo_limit
 
@@ -123,6 +123,18 @@ class Legend(BaseModel):
         )
 
 
+class ShownComment(BaseModel):
+    """What was said with a status, and who said it."""
+
+    text: str
+    by: str
+
+    @classmethod
+    def of(cls, comment: Comment | None) -> ShownComment | None:
+        """Show a comment."""
+        return cls(**vars(comment)) if comment else None
+
+
 class ShownPhoto(BaseModel):
     """A photo in the list."""
 
@@ -139,6 +151,7 @@ class ShownPhoto(BaseModel):
     """Whether it is over the limit, and will not be read."""
 
     seconds: float
+    comment: ShownComment | None
     problem: str
     """Why its label cannot be read; empty where it can."""
 
@@ -158,6 +171,7 @@ class ShownPhoto(BaseModel):
             missing=missing,
             too_large=photo.height * photo.width > photo_limit() * 1e6,
             seconds=card.seconds,
+            comment=ShownComment.of(card.comment),
             problem=card.problem,
         )
 
@@ -243,6 +257,12 @@ class Document(BaseModel):
     carried: str
     """The photo from which the line is carried over, where nothing else was done to it."""
 
+    comment: ShownComment | None
+    """What is to be looked at, or why it is rejected."""
+
+    apart: list[tuple[int, int]]
+    """In the consensus: first and last column of spans in which passes differ, still to decide."""
+
     @classmethod
     def of(cls, session: Session, doubtful: int | None, kept: int | None = None) -> Document:
         """Show a session; hold its lock meanwhile."""
@@ -276,6 +296,8 @@ class Document(BaseModel):
             doubtful=doubtful,
             doubt=wire.doubt if state.status == "to do" and not state.carried else "",
             carried=state.carried,
+            comment=ShownComment.of(state.comment),
+            apart=spans_apart(state, None if wire.empty else wire.skyline),
         )
 
 
@@ -316,38 +338,6 @@ class Margins(BaseModel):
                 uncertain.append(column)
         values = [finite(value, 4) for value in margins.tolist()]
         return cls(revision=revision, margins=values, uncertain=uncertain)
-
-
-class ShownAlternative(BaseModel):
-    """A line along another ridge. A guide along its points, with its radius, chooses it."""
-
-    rows: list[int]
-    detour: float
-    """How much dearer than the line as it is."""
-
-    apart: float
-    """Share of columns in which it follows another ridge."""
-
-    points: list[tuple[int, int]]
-    radius: int
-
-    @classmethod
-    def of(cls, line: OtherLine) -> ShownAlternative:
-        """Show a line."""
-        points, radius = along(line.rows)
-        return cls(
-            rows=line.rows.tolist(),
-            detour=round(line.detour, 4),
-            apart=round(line.apart, 4),
-            points=points,
-            radius=radius,
-        )
-
-
-class Alternatives(BaseModel):
-    """Lines along other ridges: second opinions, then the cheapest ones."""
-
-    alternatives: list[ShownAlternative]
 
 
 class Sheet(BaseModel):

@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Annotated
 
-from fastapi import APIRouter, HTTPException, Response
+from fastapi import APIRouter, HTTPException, Query, Response
 
+from annotate.server.alternatives import Alternatives, ShownAlternative
 from annotate.server.dependencies import Bench, Column, PhotoId, Row
 from annotate.server.explained import Explained
 from annotate.server.messages import (
-    Alternatives,
     Apply,
     Document,
     Margins,
     Part,
     Pixel,
-    ShownAlternative,
     Step,
 )
 from annotate.store.operations import Rough
 from annotate.store.store import StaleError
 from annotate.work.carrying import carry_over
+from annotate.work.choices import choices, nearest_span, spans_apart
 from annotate.work.session import Session
 from annotate.work.workbench import Workbench
 from skyline_viz.diagnosis.explanation import explain_pixel
@@ -72,13 +73,26 @@ def guide(bench: Bench, photo: PhotoId, stroke: Rough) -> Part:
 
 
 @router.get("/alternatives")
-def alternatives(bench: Bench, photo: PhotoId) -> Alternatives:
-    """Whole lines along other ridges: second opinions first, then the cheapest ones."""
+def alternatives(
+    bench: Bench, photo: PhotoId, column: Annotated[int, Query(ge=0, le=100_000)] = 0
+) -> Alternatives:
+    """Whole lines along other ridges: second opinions first, then the cheapest ones.
+
+    In the consensus, where passes differ, their lines, for the span that is nearest to a column.
+    """
     session = bench.session(photo)
+    with session.lock:
+        line = None if session.wire.empty else session.wire.skyline
+        spans = spans_apart(session.state, line)
+        state = session.state
+    if line is not None and spans:
+        labels = list(bench.store.labels(photo=photo))
+        found = choices(state, labels, nearest_span(spans, column))
+        return Alternatives(alternatives=[ShownAlternative.of_pass(one, line) for one in found])
     second = session.opinions
     with session.lock:
-        found = session.wire.alternatives(second)
-    return Alternatives(alternatives=[ShownAlternative.of(one) for one in found])
+        others = session.wire.alternatives(second)
+    return Alternatives(alternatives=[ShownAlternative.of(one) for one in others])
 
 
 @router.post("/operations")

@@ -61,6 +61,7 @@ export function makeActs({ labelling, line, pointer, actions, toolbar, overlay, 
     undo: () => (selection.now.corners.length && !sheet.shown ? line.dropCorner() : actions.undo()),
     redo: () => actions.redo(),
     tags: () => actions.tags(),
+    comment: () => actions.comment(),
     /** @param {string} key */
     tool: (key) => toolbar.choose(key),
     overlay: () => overlay.next(),

@@ -23,6 +23,7 @@ export function keyTable(act) {
     ...part("The photo is finished"),
     one("Space", "Accept, and show the next photo", () => act.finish("accepted"), " "),
     one("R", "Needs review, next photo", () => act.finish("needs review"), "r"),
+    one("Shift+R", "Needs review or reject, with a sentence", () => act.comment(), "R"),
     one("Q", "Reject, next photo", () => act.finish("rejected"), "q"),
     one("C", "Set the photo back: it is to do again", () => act.setStatus("to do"), "c"),
     one("T", "Tags; there a digit ticks one", () => act.tags(), "t"),
@@ -80,7 +81,7 @@ export const GESTURES = /** @type {const} */ ([
 ]);
 
 /** Keys that work in the sheet, too, on the photo of its card. */
-const EVERYWHERE = new Set([" ", "r", "q", "c", "u", "Ctrl+z", "y", "Ctrl+y", "Ctrl+Z", "t", "p", "/", "?"]);
+const EVERYWHERE = new Set([" ", "r", "R", "q", "c", "u", "Ctrl+z", "y", "Ctrl+y", "Ctrl+Z", "t", "p", "/", "?"]);
 
 /**
  * What a key does where nothing is being typed; undefined where it does nothing.

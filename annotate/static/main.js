@@ -22,6 +22,7 @@ import { Toolbar } from "./around/toolbar.js";
 import { Tour } from "./around/tour.js";
 import { around, box, button, canvas } from "./basics/dom.js";
 import { restoreTheme, turnTheme } from "./basics/theme.js";
+import { remark } from "./basics/words.js";
 import { Stage } from "./drawn/stage.js";
 import { Strips } from "./drawn/strips.js";
 import { lineActions } from "./gestures/line_actions.js";
@@ -79,9 +80,11 @@ toolbar.on("tool", ({ id, name, title }) => {
   labelling.say(`${name}. ${title}`);
 });
 labelling.on("document", ({ fresh }) => {
-  const { doubtful = null, doubt = "", carried = "" } = labelling.document ?? {};
-  if (!fresh) return;
-  if (doubtful !== null) {
+  const { document: shown } = labelling;
+  if (!fresh || !shown) return;
+  const { doubtful, doubt, carried, comment } = shown;
+  if (comment) labelling.say(remark(comment));
+  else if (doubtful !== null) {
     line.goTo(doubtful);
     labelling.say(`A diagnosis doubts the truth around column ${doubtful}.`);
   } else if (carried) labelling.say(`The line is carried over from ${carried}; Undo gives the detector's own.`);
@@ -98,7 +101,7 @@ letGo("z", () => act.magnify(false));
 const buttons = {
   "list-toggle": act.list, previous: () => act.step(-1), next: () => act.step(1), undo: act.undo, redo: act.redo,
   accept: () => act.finish("accepted"), review: () => act.finish("needs review"), reject: () => act.finish("rejected"),
-  tags: act.tags, help: act.help, others: act.others, fit: () => view.fit(), "sheet-open": act.sheet, stages: act.stages,
+  tags: act.tags, "comment-open": act.comment, help: act.help, others: act.others, fit: () => view.fit(), "sheet-open": act.sheet, stages: act.stages,
   more: () => showMore(labelling), learn: () => learn(labelling), theme: turnTheme,
 };
 for (const [id, run] of Object.entries(buttons)) button(id).addEventListener("click", () => run());

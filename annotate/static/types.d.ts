@@ -4,7 +4,7 @@
  * Written by `python -m tools.page_types` from the server's models; do not edit it by hand.
  */
 
-/** Lines along other ridges: second opinions, then the cheapest ones. */
+/** Lines along other ridges: second opinions, then the cheapest ones; or those of passes. */
 export interface Alternatives {
   alternatives: ShownAlternative[];
 }
@@ -49,6 +49,8 @@ export interface Document {
   doubtful: number | null;
   doubt: string;
   carried: string;
+  comment: ShownComment | null;
+  apart: [number, number][];
 }
 
 /** The line is drawn by hand. */
@@ -205,6 +207,8 @@ export interface SetAnchor {
 export interface SetStatus {
   kind: "status";
   status: Status;
+  comment?: string;
+  by?: string;
 }
 
 /** A tag is put on the photo, or taken off. */
@@ -220,13 +224,21 @@ export interface Sheet {
   pages: number;
 }
 
-/** A line along another ridge. A guide along its points, with its radius, chooses it. */
+/** Another line. A guide along its points, with its radius, chooses it, or what `take` says. */
 export interface ShownAlternative {
   rows: number[];
   detour: number;
   apart: number;
   points: [number, number][];
   radius: number;
+  name?: string;
+  take?: Take | null;
+}
+
+/** What was said with a status, and who said it. */
+export interface ShownComment {
+  text: string;
+  by: string;
 }
 
 /** How a pixel's score comes about, see `explanation.Filtered`. */
@@ -264,6 +276,7 @@ export interface ShownPhoto {
   missing: boolean;
   too_large: boolean;
   seconds: number;
+  comment: ShownComment | null;
   problem: string;
 }
 
@@ -318,6 +331,16 @@ export interface Stroke {
   allow?: boolean;
 }
 
+/** The line of another pass is taken over in some columns. */
+export interface Take {
+  first: number;
+  rows: number[];
+  origins: (["proposal" | "solved" | "straight" | "drawn", number])[];
+  hidden?: [number, number][];
+  of: string[];
+  kind: "taken";
+}
+
 /** Anything that the page does to a photo. */
 export type Operation =
   | SetAnchor
@@ -330,6 +353,7 @@ export type Operation =
   | Draw
   | Hide
   | Release
+  | Take
   | SetTag
   | SetStatus
   | Open;

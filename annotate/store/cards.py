@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from annotate.store.identity import Photo
+from annotate.store.labels import Comment
 from annotate.store.standings import Standing
 
 
@@ -23,6 +24,7 @@ class Card:
 
     blind: bool
     seconds: float
+    comment: Comment | None = None
     problem: str = ""
     """A sentence that says why its log cannot be read, if so."""
 

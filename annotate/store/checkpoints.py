@@ -12,7 +12,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from annotate.engine.edits import Edits, Span, SpanKind
+from annotate.engine.edits import Edits, Origin, Span
 from annotate.engine.guide import Guide
 from annotate.engine.steering import Ground, Left, Side, Steering, Stroke
 from annotate.store.history import State, Step
@@ -31,7 +31,7 @@ class _Part(BaseModel):
 
 
 class _Span(_Part):
-    kind: SpanKind
+    kind: Origin
     first: int
     rows: tuple[int, ...]
 

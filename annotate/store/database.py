@@ -110,6 +110,10 @@ MIGRATIONS = (
     ALTER TABLE labels RENAME COLUMN margin TO confidence;  -- of the proposal, in [0, 1]
     UPDATE labels SET confidence = NULL;                    -- until a photo is proposed for again
     """,
+    """
+    ALTER TABLE standings ADD COLUMN comment TEXT;       -- what was said with the status, if any
+    ALTER TABLE standings ADD COLUMN commented_by TEXT;  -- and who said it
+    """,
 )
 """What leads from each version of the schema to the next; the number of them is the version."""
 

@@ -15,12 +15,13 @@ from dataclasses import dataclass, field, replace
 from pydantic import ValidationError
 
 from annotate.engine.edits import EditError, Edits
-from annotate.store.labels import Status
+from annotate.store.labels import Comment, Status
 from annotate.store.lines import Line
 from annotate.store.operations import (
     LOGGED,
     Carry,
     Change,
+    Consensus,
     Drawn,
     Logged,
     Open,
@@ -32,6 +33,9 @@ from annotate.store.operations import (
 
 IDLE_SECONDS = 60.0
 """Longer pauses between two operations on a photo count as this long."""
+
+COMMENTED: tuple[Status, ...] = ("needs review", "rejected")
+"""Statuses with which a sentence may be said."""
 
 _REMEMBERED = 64  # steps at the end whose edits are known; and every one of so many before them
 
@@ -104,6 +108,23 @@ class State:
         return self.done[0].name
 
     @property
+    def comment(self) -> Comment | None:
+        """What was said with its status; None where nothing was."""
+        if self.status not in COMMENTED:
+            return None
+        for step in reversed(self.steps):
+            if isinstance(step.change, SetStatus):
+                said = step.change
+                return Comment(said.comment, said.by) if said.comment else None
+        return None
+
+    @property
+    def consensus(self) -> Consensus | None:
+        """What the passes have in common that were compared last; None where none were."""
+        changes = (one.change for one in reversed(self.steps))
+        return next((one for one in changes if isinstance(one, Consensus)), None)
+
+    @property
     def undone(self) -> tuple[Drawn, ...]:
         """Edits that were taken back, the next one to redo last."""
         return tuple(one for one in self.taken if not isinstance(one, SetStatus))
@@ -145,8 +166,9 @@ class State:
                 return self._undone(with_status=with_status)
             case Redo(status=with_status):
                 return self._redone(with_status=with_status)
-            case SetStatus(status=status):
-                same = status == self.status
+            case SetStatus(status=status, comment=words):
+                before = self.comment
+                same = status == self.status and words in ("", before.text if before else "")
                 return self if same else replace(self._changed(operation), taken=self.undone)
             case _:
                 return replace(self._changed(operation), taken=())
@@ -157,7 +179,8 @@ class State:
         if isinstance(change, SetStatus):
             status, edits = change.status, self.edits
         else:
-            status = self.status if isinstance(change, Carry) else _touched(self.status)
+            by_itself = isinstance(change, Carry | Consensus)
+            status = self.status if by_itself else _touched(self.status)
             edits = change.on(self.edits)
         return replace(self, steps=_thinned((*self.steps, step)), status=status, edits=edits)
 

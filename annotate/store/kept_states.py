@@ -11,7 +11,9 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections import OrderedDict
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from time import time
 from typing import Any
 
 from annotate.engine.edits import Edits
@@ -19,6 +21,7 @@ from annotate.store import checkpoints
 from annotate.store.history import State, folded
 from annotate.store.lines import Line
 from annotate.store.operations import LOGGED, Logged
+from annotate.store.readable import reading_label
 
 _KEPT = 8  # states in memory
 
@@ -143,15 +146,56 @@ def add(
     return state
 
 
+def add_all(
+    database: sqlite3.Connection, wanted: Iterable[tuple[Request, Line | None]], states: KeptStates
+) -> tuple[list[int], dict[int, State]]:
+    """Do what is asked, one after the other, but for what is known already.
+
+    Args:
+        database: Where, in a transaction.
+        wanted: Requests, each with the line after it, where it changes the line.
+        states: States of labels as they are.
+
+    Returns:
+        The revision of each request, and the states of the labels that were added to.
+
+    Raises:
+        StaleError: As `known` does.
+        EditError: It makes no sense for the photo.
+        LogError: The log of a label cannot be read.
+    """
+    revisions: list[int] = []
+    after: dict[int, State] = {}
+    for asked, line in wanted:
+        before = known(database, asked)
+        if before is None:
+            with reading_label(database, asked.label):
+                state = after.get(asked.label) or states.read(database, asked.label)
+            after[asked.label] = add(database, asked, state, time(), line)
+            before = after[asked.label].revision
+        revisions.append(before)
+    return revisions, after
+
+
 def keep(database: sqlite3.Connection, label: int, state: State, *, checkpoint: bool) -> None:
     """Keep where a label stands; with a checkpoint, also all else about its state.
 
     It has to be done in the transaction in which the log was read or added to.
     """
     database.execute(
-        "INSERT OR REPLACE INTO standings (label, last, revision, status, tags, seconds)"
-        " VALUES (?, ?, ?, ?, ?, ?)",
-        (label, state.last, state.revision, state.status, json.dumps(state.tags), state.seconds),
+        "INSERT OR REPLACE INTO standings"
+        " (label, last, revision, status, tags, seconds, comment, commented_by)"
+        " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+        (
+            label,
+            state.last,
+            state.revision,
+            state.status,
+            json.dumps(state.tags),
+            state.seconds,
+            state.comment and state.comment.text,
+            state.comment and state.comment.by,
+        ),
     )
     if checkpoint:
         database.execute(
@@ -202,9 +246,9 @@ def read(database: sqlite3.Connection, label: int) -> State:
 
 
 def _asked(text: str) -> dict[str, Any]:
-    """What somebody asked for, without what was found when it was done."""
+    """What somebody asked for, without what was found when it was done, and who it was."""
     body: dict[str, Any] = json.loads(text)
-    return {name: value for name, value in body.items() if name != "found"}
+    return {name: value for name, value in body.items() if name not in ("found", "by")}
 
 
 def _fits(database: sqlite3.Connection, label: int, start: State) -> bool:

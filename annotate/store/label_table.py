@@ -65,14 +65,20 @@ def insert(database: sqlite3.Connection, log: Log) -> bool:
     return True
 
 
-def labels_of(database: sqlite3.Connection, annotator: str | None, number: int | None) -> list[int]:
+def labels_of(
+    database: sqlite3.Connection,
+    annotator: str | None,
+    number: int | None,
+    photo: int | None = None,
+) -> list[int]:
     """Ids of labels, by the name of the photo; those that were set aside are left out."""
     rows = database.execute(
         "SELECT labels.id FROM labels JOIN photos ON photos.id = photo"
         " WHERE annotator = coalesce(?, annotator) AND number = coalesce(?, number)"
+        " AND photo = coalesce(?, photo)"
         " AND labels.id NOT IN (SELECT label FROM set_aside)"
         " ORDER BY name, annotator, number",
-        (annotator, number),
+        (annotator, number, photo),
     )
     return [int(row[0]) for row in rows]
 
@@ -121,5 +127,6 @@ def whole_label(database: sqlite3.Connection, label: int, state: State) -> Label
         seconds=state.seconds,
         detector=about,
         blind=bool(blind),
+        comment=state.comment,
         pixels=pixels or "",
     )

@@ -37,6 +37,37 @@ LONGEST_NAME = 80
 """Characters of an annotator's name at most."""
 
 
+LONGEST_COMMENT = 300
+"""Characters of a comment at most."""
+
+CONSENSUS = "consensus"
+"""Annotator of the pass that comes out of comparing several."""
+
+
+@dataclass(frozen=True)
+class Comment:
+    """What is to be looked at on a photo, or why it is rejected."""
+
+    text: str
+    """A sentence."""
+
+    by: str
+    """Who says so."""
+
+    def __str__(self) -> str:
+        """Both, on one line."""
+        return f"{self.by}: {self.text}"
+
+
+def named(annotator: str, number: int) -> str:
+    """A pass by name, as commands take it.
+
+    >>> named("ann", 1), named("ann", 2)
+    ('ann', 'ann:2')
+    """
+    return annotator if number == 1 else f"{annotator}:{number}"
+
+
 def check_annotator(name: str) -> str:
     """Return the name of an annotator.
 
@@ -97,6 +128,9 @@ class Label:
 
     blind: bool
     """Whether it was labelled without a proposal."""
+
+    comment: Comment | None = None
+    """What is to be looked at, or why it is rejected; None where nobody has said anything."""
 
     pixels: str = ""
     """SHA-256 of the photo's upright pixels (`identity.pixel_digest`), which stays when metadata is

@@ -11,8 +11,8 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Field, Strict, TypeAdapter
 
 from annotate.engine import steering
-from annotate.engine.edits import Edits
-from annotate.store.labels import Status
+from annotate.engine.edits import EditError, Edits, Origin
+from annotate.store.labels import LONGEST_COMMENT, LONGEST_NAME, Status
 
 Place: TypeAlias = Annotated[int, Field(ge=-100_000, le=100_000)]
 """A row or a column; whether it lies inside the photo is checked against the photo."""
@@ -22,6 +22,17 @@ Point: TypeAlias = Annotated[tuple[Place, Place], Strict(False)]
 
 Points: TypeAlias = Annotated[list[Point], Field(min_length=1, max_length=5000)]
 """Column and row of each point of a stroke."""
+
+Run: TypeAlias = Annotated[tuple[Origin, Annotated[int, Field(ge=1)]], Strict(False)]
+"""An origin, and the number of columns that have it."""
+
+Name: TypeAlias = Annotated[str, Field(min_length=1, max_length=LONGEST_NAME + 20)]
+"""A pass by name: its annotator, and its number where that is not 1."""
+
+Words: TypeAlias = Annotated[
+    str, Field(max_length=LONGEST_COMMENT, pattern=r"^([^\x00-\x1f\x7f]*[^\x00-\x1f\x7f\s])?$")
+]
+"""A short text on one line, or nothing."""
 
 Time: TypeAlias = Annotated[int, Field(ge=0, le=2**40)]
 """Milliseconds since any moment."""
@@ -214,6 +225,45 @@ class Release(_Operation):
         return edits.release(self.first, self.last)
 
 
+class _Rows(_Operation):
+    first: Place
+    rows: Annotated[list[Place], Field(min_length=1, max_length=100_000)]
+    origins: Annotated[list[Run], Field(min_length=1, max_length=100_000)]
+    """Where the rows are from, as the passes say it: an origin, and in how many columns."""
+
+    hidden: Annotated[list[Point], Field(max_length=100_000)] = []
+    """First and last column of each run in which the line cannot be seen."""
+
+    of: Annotated[list[Name], Field(min_length=1, max_length=1000)]
+    """The passes, by name."""
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with these rows."""
+        return edits.take(self.first, self.rows, self.origins, self.hidden)
+
+
+class Take(_Rows):
+    """The line of another pass is taken over in some columns."""
+
+    kind: Literal["taken"] = "taken"
+
+
+class Consensus(_Rows):
+    """What several passes have in common, column by column; the program does so by itself."""
+
+    kind: Literal["consensus"] = "consensus"
+    apart: Annotated[list[Point], Field(max_length=100_000)] = []
+    """First and last column of each span in which they do not agree. The line there is that of the
+    pass nearest to the others, until somebody has decided."""
+
+    def on(self, edits: Edits) -> Edits:
+        """Edits with these rows."""
+        whole = self.first == 0 and len(self.rows) == edits.width
+        if not whole or any(not 0 <= one <= other < edits.width for one, other in self.apart):
+            raise EditError("a consensus is one of all columns of its photo.")
+        return super().on(edits)
+
+
 class SetTag(_Operation):
     """A tag is put on the photo, or taken off."""
 
@@ -227,6 +277,11 @@ class SetStatus(_Operation):
 
     kind: Literal["status"] = "status"
     status: Status
+    comment: Words = ""
+    """What is to be looked at, or why it is rejected, in a sentence; mostly nothing."""
+
+    by: Annotated[str, Field(max_length=LONGEST_NAME)] = ""
+    """Who says so. Filled in before the operation is kept, where there is a comment."""
 
 
 class Open(_Operation):
@@ -262,12 +317,13 @@ Edit: TypeAlias = Annotated[
     | Straight
     | Draw
     | Hide
-    | Release,
+    | Release
+    | Take,
     Field(discriminator="kind"),
 ]
 """What the page does to change the line."""
 
-Drawn: TypeAlias = Edit | Carry
+Drawn: TypeAlias = Edit | Carry | Consensus
 """What changes the line, whoever does it."""
 
 Change: TypeAlias = Drawn | SetStatus
@@ -276,7 +332,9 @@ Change: TypeAlias = Drawn | SetStatus
 Operation: TypeAlias = Annotated[Edit | SetTag | SetStatus | Open, Field(discriminator="kind")]
 """Anything that the page does to a photo, but for undo and redo."""
 
-Logged: TypeAlias = Annotated[Operation | Carry | Undo | Redo, Field(discriminator="kind")]
+Logged: TypeAlias = Annotated[
+    Operation | Carry | Consensus | Undo | Redo, Field(discriminator="kind")
+]
 """Anything that is kept in the log."""
 
 LOGGED: TypeAdapter[Logged] = TypeAdapter(Logged)
@@ -301,14 +359,19 @@ def spoken(change: Change) -> str:
     >>> spoken(SetAnchor(column=3, row=4)), spoken(SetStatus(status="accepted"))
     ('the anchor', 'accepted')
     """
-    if isinstance(change, SetStatus):
-        return change.status
-    if isinstance(change, Forbid) and change.allow:
-        return "the eraser stroke"
-    if isinstance(change, Carry):
-        return f"the line carried over from {change.name}"
-    if isinstance(change, Side):
-        return "all above is sky" if change.ground == "sky" else "all below is terrain"
-    if isinstance(change, Hide) and not change.hidden:
-        return "the columns shown again"
-    return _SPOKEN[change.kind]
+    match change:
+        case SetStatus(status=status):
+            words: str = status
+        case Forbid(allow=True):
+            words = "the eraser stroke"
+        case Carry(name=name):
+            words = f"the line carried over from {name}"
+        case Take(of=of) | Consensus(of=of):
+            words = f"the line of {' and '.join(of)}"
+        case Side(ground=ground):
+            words = "all above is sky" if ground == "sky" else "all below is terrain"
+        case Hide(hidden=False):
+            words = "the columns shown again"
+        case _:
+            words = _SPOKEN[change.kind]
+    return words

@@ -9,12 +9,13 @@ from dataclasses import dataclass
 from annotate.store import checkpoints
 from annotate.store.history import LogError, State
 from annotate.store.kept_states import keep, read
-from annotate.store.labels import STATUSES
+from annotate.store.labels import STATUSES, Comment
 from annotate.store.readable import reading_label
 
 _SOUND = (  # a standing that is damaged counts as none
     f"status IN ({', '.join(map(repr, STATUSES))}) AND typeof(seconds) = 'real'"
     " AND json_valid(tags) AND json_type(tags) = 'array'"
+    " AND (comment IS NULL OR typeof(comment) = 'text' AND typeof(commented_by) = 'text')"
 )
 
 
@@ -31,25 +32,31 @@ class Standing:
     seconds: float = 0.0
     """Time spent on it."""
 
+    comment: Comment | None = None
+    """What was said with the status; None where nothing was."""
+
     problem: str = ""
     """A sentence that says why its log cannot be read, if so."""
 
     @classmethod
     def of(cls, state: State) -> Standing:
         """What lists show of a state."""
-        return cls(state.status, state.tags, state.seconds)
+        return cls(state.status, state.tags, state.seconds, state.comment)
 
 
 def kept(database: sqlite3.Connection, annotator: str, number: int) -> dict[int, Standing]:
     """Standings of a pass, as they were kept with the logs, by the id of the label."""
     rows = database.execute(
-        "SELECT label, status, tags, seconds FROM standings JOIN labels ON labels.id = label"  # noqa: S608
+        "SELECT label, status, tags, seconds, comment, commented_by"  # noqa: S608
+        " FROM standings JOIN labels ON labels.id = label"
         f" WHERE annotator = ? AND number = ? AND {_SOUND}",
         (annotator, number),
     )
     return {
-        int(label): Standing(status, tuple(json.loads(tags)), seconds)
-        for label, status, tags, seconds in rows
+        int(label): Standing(
+            status, tuple(json.loads(tags)), seconds, Comment(words, by) if words else None
+        )
+        for label, status, tags, seconds, words, by in rows
     }
 
 

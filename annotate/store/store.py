@@ -13,7 +13,6 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
-from time import time
 from typing import Any
 
 from annotate.store import standings
@@ -34,7 +33,7 @@ from annotate.store.kept_states import (
     KeptStates,
     Request,
     StaleError,
-    add,
+    add_all,
     known,
     last_line,
     revision,
@@ -240,17 +239,16 @@ class Store:
             EditError: It makes no sense for the photo.
             StoreError: The disk is full, or the file cannot be written; nothing was added.
         """
-        asked = Request(label, revision, kind, body, id)
+        return self.append_all([(Request(label, revision, kind, body, id), line)])[0]
+
+    def append_all(self, wanted: Iterable[tuple[Request, Line | None]]) -> list[int]:
+        """Do as `append` does with several operations, all of them at once or none."""
         with self._writing() as database:
-            before = known(database, asked)
-            if before is not None:
-                return before
-            with reading_label(database, label):
-                before_it = self._states.read(database, label)
-            state = add(database, asked, before_it, time(), line)
+            revisions, after = add_all(database, wanted, self._states)
         with self._lock:
-            self._states.remember(label, state)
-        return state.revision
+            for label, state in after.items():
+                self._states.remember(label, state)
+        return revisions
 
     def known(self, asked: Request) -> int | None:
         """Revision that an operation got when it came before; None when it may be done.
@@ -314,7 +312,9 @@ class Store:
             rows = database.execute("SELECT reason FROM set_aside ORDER BY label")
             return [f"set aside: {shown(str(row[0]))}" for row in rows]
 
-    def labels(self, annotator: str | None = None, number: int | None = None) -> Iterator[Label]:
+    def labels(
+        self, annotator: str | None = None, number: int | None = None, photo: int | None = None
+    ) -> Iterator[Label]:
         """Labels with all that is known about them, by the name of the photo.
 
         Labels that cannot be read are left out, and told in `unreadable`.
@@ -322,10 +322,11 @@ class Store:
         Args:
             annotator: Only theirs.
             number: Only of this pass.
+            photo: Only of the photo with this id.
         """
         self.unreadable = []
         with self._reading() as database:
-            labels = labels_of(database, annotator, number)
+            labels = labels_of(database, annotator, number, photo)
         for label in labels:
             try:
                 state = self.state(label)

@@ -11,6 +11,7 @@ import numpy as np
 from annotate.engine.edits import EditError, Edits
 from annotate.engine.live_wire import LiveWire
 from annotate.engine.opinions import opinions
+from annotate.store.history import COMMENTED
 from annotate.store.kept_states import Request, StaleError
 from annotate.store.label_table import require_fit
 from annotate.store.lines import Line
@@ -53,6 +54,7 @@ class Session:
         *,
         blind: bool,
         keep: bool = False,
+        by: str = "",
     ) -> None:
         """Read the photo, and find its proposal or what has been made of it.
 
@@ -63,11 +65,12 @@ class Session:
             detector: What proposes, unless the label has begun with another one.
             blind: Whether nothing is proposed.
             keep: Whether the detection stays with the photo, see `LiveWire`.
+            by: Who says what is said of it.
 
         Raises:
             PhotoError: The photo has vanished, or cannot be read any more.
         """
-        self.photo, self.label, self.blind = photo, label, blind
+        self.photo, self.label, self.blind, self.by = photo, label, blind, by
         self.lock = threading.RLock()
         self.compared: set[tuple[int, int]] = set()
         """Neighbours, by photo and revision, whose lines were tried as a proposal."""
@@ -122,6 +125,9 @@ class Session:
             StoreError: It could not be kept. In all cases nothing has changed.
         """
         revision = -1 if isinstance(operation, Open) else revision  # to look at it needs none
+        if isinstance(operation, SetStatus):
+            by = self.by if operation.comment else ""  # whatever the page says
+            operation = operation.model_copy(update={"by": by})
         with self.lock:
             asked = self._asked(operation, revision, id)
             kept = self._store.known(asked)
@@ -216,8 +222,11 @@ class Session:
 
     def _require_sense(self, operation: SetStatus) -> None:
         """Refuse a status that says nothing new, which undo would not find, or nothing at all."""
-        if operation.status == self.state.status:
+        words, before = operation.comment, self.state.comment
+        if operation.status == self.state.status and words in ("", before.text if before else ""):
             raise EditError(f"{self.photo.name} is {operation.status} already.")
+        if words and operation.status not in COMMENTED:
+            raise EditError("a comment is said of a photo that needs review, or is rejected.")
         if operation.status == "accepted" and self.wire.empty:
             raise EditError(f"{self.photo.name} has no line yet, so there is nothing to accept.")
 

@@ -59,6 +59,9 @@ class Assignment:
     seed: int = 0
     """Seed of what is random: the order, and which photos are blind."""
 
+    reviewer: str = ""
+    """Who looks the pass through, where that is not its annotator; comments are theirs."""
+
 
 @dataclass(frozen=True)
 class Progress:
@@ -302,6 +305,7 @@ class Workbench:
                     self.detector,
                     blind=blind,
                     keep=self._open.keeps(one),
+                    by=self.assignment.reviewer or self.assignment.annotator,
                 )
             self._count(session)
             future.set_result(session)

@@ -22,6 +22,7 @@ def test_help_and_version(capsys):
         ["import"],
         ["status"],
         ["agreement"],
+        ["consensus"],
         ["backup"],
         ["repair"],
     ):
@@ -48,7 +49,14 @@ def test_help_and_version(capsys):
         (["import", "alps", "nowhere"], "nowhere does not exist."),
         (["import", "alps", "empty"], "empty is of no known format"),
         (["import", "empty", "alps"], "empty holds no photograph."),
-        (["agreement", "done"], "which two passes? There are ann:1"),
+        (["agreement", "done"], "with accepted photos: ann:1."),
+        (["consensus", "done"], "made of two passes at least, and there is ann alone."),
+        (["consensus", "done", "--within", "-1"], "--within is a number of pixels from 0 on"),
+        (["consensus", "done", "--passes", "eve"], "there is no pass eve; there are ann:1."),
+        (
+            ["open", "alps", "--reviewer", "a/b"],
+            "an annotator's name is plain text without slashes",
+        ),
         (["agreement", "done", "--picture", "x.gif"], "should end in .png or .jpg."),
         (["backup", "empty"], "empty has no labels to back up."),
     ],

@@ -209,3 +209,9 @@ test("of several photos, Undo leaves the one that was changed since as it is", a
   await quiet();
   assert.deepEqual([1, 2, 3].map(status), ["to do", "in progress", "to do"]);
 });
+
+test("what was said of the next photo is said with it", async () => {
+  server.documents.get(2).comment = { text: "the hut is cut off", by: "eve" };
+  await actions.finish("accepted");
+  assert.equal(said.at(-1).text, "hill-1.png is accepted. Of this one says eve: the hut is cut off");
+});

@@ -111,6 +111,33 @@ test("uncertain spans are visited and counted, and looked at closely", () => {
   assert.ok(view.scale > 1);
 });
 
+test("in the consensus, spans in which passes differ are visited instead", () => {
+  labelling.document = photo({ apart: [[20, 39], [300, 309]] });
+  act.uncertain(1);
+  assert.equal(labelling.said.at(-1), "Passes differ in span 1 of 2: columns 20 to 39. 1 shows their lines.");
+  act.uncertain(1);
+  assert.equal(labelling.said.at(-1), "Passes differ in span 2 of 2: columns 300 to 309. 1 shows their lines.");
+  assert.deepEqual(selection.now.cursor, { column: 304, row: null });
+  assert.ok(view.scale > 1);
+});
+
+test("the line of another pass is asked for at the cursor, and taken just where passes differ", async () => {
+  const take = { kind: "taken", first: 20, rows: [80, 81], origins: [["solved", 2]], hidden: [], of: ["bob"] };
+  const bob = { points: [], radius: 4, rows: Array(400).fill(80), detour: 0, apart: 1, name: "bob", take };
+  let asked = "";
+  globalThis.fetch = (path) => {
+    asked = String(path);
+    return Promise.resolve(answer(200, { alternatives: [bob] }));
+  };
+  selection.moveTo(labelling.document, 25);
+  await act.others();
+  assert.match(asked, /api\/photos\/1\/alternatives\?column=25$/);
+  assert.equal(labelling.said.at(-1), "Passes differ in columns 20 to 21. A number takes the line of one there, Escape leaves.");
+  act.alternative(1);
+  assert.deepEqual(labelling.applied, [[take, { first: 20, rows: [80, 81] }]]);
+  assert.equal(labelling.said.at(-1), "The line of bob is taken in columns 20 to 21.");
+});
+
 test("why a line cannot be seen is asked, and why it can is not", () => {
   labelling.legend = { hidden_by: ["hidden by cloud"] };
   let asked;

@@ -7,7 +7,7 @@ export function photo(how = {}) {
   return {
     id: 1, name: "hill.png", width: 400, height: 240, revision: 3, status: "to do", tags: [], blind: false,
     rows: Array(400).fill(100), hidden: [], anchors: [], spans: [], forbidden: [], guides: [], sides: [], can_undo: false, can_redo: false,
-    undo_what: null, kept: null, origins: {}, doubtful: null, doubt: "", carried: "", ...how,
+    undo_what: null, kept: null, origins: {}, doubtful: null, doubt: "", carried: "", comment: null, apart: [], ...how,
   };
 }
 

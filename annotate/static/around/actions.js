@@ -2,8 +2,8 @@
 
 import { Events } from "../basics/events.js";
 import { isChange } from "../basics/operations.js";
-import { counted } from "../basics/words.js";
-import { showTags } from "./dialogs.js";
+import { counted, remark } from "../basics/words.js";
+import { showComment, showTags } from "./dialogs.js";
 
 /** @import { Labelling } from "../labelled/labelling.js" */
 /** @import { Item } from "../server/queue.js" */
@@ -96,6 +96,12 @@ export class Actions extends Events {
     return this.#set(status, false);
   }
 
+  /** Ask for a sentence, and give the photo a status with it. */
+  comment() {
+    const photo = this.target();
+    if (photo) showComment(photo, (status, comment) => this.#set(status, true, comment));
+  }
+
   /**
    * Give several photos a status. One Undo takes all of it back.
    *
@@ -122,15 +128,25 @@ export class Actions extends Events {
   /**
    * @param {Status} status
    * @param {boolean} goOn
+   * @param {string} [comment]
    */
-  async #set(status, goOn) {
+  async #set(status, goOn, comment = "") {
     const photo = this.target();
     if (!photo || !this.#makesSense(photo, status)) return;
     const leaves = goOn && !this.#sheet.shown;
     if (goOn && !leaves) this.#sheet.step(1);
-    const already = photo.status === status && !this.#labelling.queue.of(photo.id).length;
-    if (already) await this.#goOn(leaves, photo, `${photo.name} is ${status} already.`);
-    else await this.#send(photo, status, leaves);
+    if (!comment && this.#has(photo, status)) await this.#goOn(leaves, photo, `${photo.name} is ${status} already.`);
+    else await this.#send(photo, status, leaves, comment);
+  }
+
+  /**
+   * Whether a photo has a status, and nothing waits that would change it.
+   *
+   * @param {Document | ShownPhoto} photo
+   * @param {Status} status
+   */
+  #has(photo, status) {
+    return photo.status === status && !this.#labelling.queue.of(photo.id).length;
   }
 
   /**
@@ -153,11 +169,12 @@ export class Actions extends Events {
    * @param {Document | ShownPhoto} photo
    * @param {Status} status
    * @param {boolean} goOn
+   * @param {string} comment
    */
-  async #send(photo, status, goOn) {
+  async #send(photo, status, goOn, comment) {
     const labelling = this.#labelling;
     const done = statusOf(photo, status);
-    const sent = this.#give(photo, done);
+    const sent = this.#give(photo, done, comment);
     if (this.#sheet.shown) this.#follow([...this.#trail, [done]]);
     if (!await sent) return;
     this.#latest = [done];
@@ -170,11 +187,13 @@ export class Actions extends Events {
    *
    * @param {Document | ShownPhoto} photo
    * @param {Done} done
+   * @param {string} [comment] - What is said with it.
    * @returns {Promise<boolean>} Whether the photo has it now.
    */
-  async #give(photo, done) {
+  async #give(photo, done, comment = "") {
     const { status } = done;
-    const kept = await this.#labelling.send(photo, { what: "operations", operation: { kind: "status", status }, says: `“${status}”` });
+    const said = comment ? { comment } : {};
+    const kept = await this.#labelling.send(photo, { what: "operations", operation: { kind: "status", status, ...said }, says: `“${status}”` });
     if (kept?.status === status) done.revision = kept.kept ?? kept.revision;
     else this.#forget([done]);
     return kept?.status === status;
@@ -221,7 +240,10 @@ export class Actions extends Events {
 
   /** What a diagnosis or the detector doubts of the photo that is open, or where its line is from; nothing most often. */
   #doubts() {
-    const { doubtful = null, doubt = "", carried = "" } = this.#labelling.document ?? {};
+    const { document: shown } = this.#labelling;
+    if (!shown) return "";
+    const { doubtful, doubt, carried, comment } = shown;
+    if (comment) return ` Of this one says ${remark(comment)}`;
     if (doubtful !== null) return ` A diagnosis doubts the truth around column ${doubtful} of this one.`;
     if (carried) return ` The line of this one is carried over from ${carried}; Undo gives the detector's own.`;
     return doubt && ` The detector says of this one: ${doubt}`;

@@ -51,6 +51,6 @@ export class Choices {
 }
 
 /** @param {ShownAlternative} other */
-function words({ apart }) {
-  return `${Math.round(100 * apart)} % elsewhere`;
+function words({ apart, name }) {
+  return name || `${Math.round(100 * apart)} % elsewhere`;
 }

@@ -1,6 +1,6 @@
 /** Dialogs: keys, tags, the folder (export and learning), and three sentences at the first visit. */
 
-import { around, box, dialog, find, input, made } from "../basics/dom.js";
+import { around, box, button, dialog, find, input, made } from "../basics/dom.js";
 import { remember, remembered } from "../basics/theme.js";
 import { counted } from "../basics/words.js";
 import { ApiError, blob, get, post } from "../server/api.js";
@@ -100,7 +100,24 @@ export function showTags(labelling, photo, set) {
     set(tag, true);
     draw();
   };
+  button("comment-open").hidden = !("id" in photo); // of several photos nothing is said
   dialog("tags-dialog").showModal();
+}
+
+/**
+ * Ask for a sentence on a photo, and with which status it is said.
+ *
+ * @param {{name: string}} photo
+ * @param {(status: "needs review" | "rejected", words: string) => void} say
+ */
+export function showComment(photo, say) {
+  box("comment-title").textContent = `Say what is wrong with ${photo.name}`;
+  input("comment").value = "";
+  find("comment-form", HTMLFormElement).onsubmit = ({ submitter }) => {
+    const words = input("comment").value.trim();
+    if (words) say(submitter?.id === "comment-reject" ? "rejected" : "needs review", words);
+  };
+  dialog("comment-dialog").showModal();
 }
 
 /**

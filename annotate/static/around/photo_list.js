@@ -1,7 +1,7 @@
 /** The list of photos: only what is in sight has elements and pictures. */
 
 import { around, box, find, input, made, offer, select } from "../basics/dom.js";
-import { spoken, sure } from "../basics/words.js";
+import { remark, spoken, sure } from "../basics/words.js";
 import { Thumbnails } from "../server/thumbnails.js";
 
 /** @import { Chosen } from "./chosen.js" */
@@ -152,9 +152,9 @@ export class PhotoList {
  *
  * @param {ShownPhoto} photo
  */
-function besides({ status, blind, seconds, tags, confidence }) {
+function besides({ status, blind, seconds, tags, confidence, comment }) {
   const time = status !== "to do" && seconds >= 1 ? [spoken(seconds)] : [];
-  return [...(blind ? ["blind"] : []), ...sure(status, confidence), ...time, ...tags];
+  return [...(blind ? ["blind"] : []), ...sure(status, confidence), ...time, ...tags, ...(comment ? [remark(comment)] : [])];
 }
 
 /**

@@ -19,6 +19,7 @@ const WORDS = {
   drawn: (how) => `the drawn line from column ${how.first} to ${how.first + how.rows.length - 1}`,
   hidden: (how) => `${how.hidden ? "hiding" : "showing"} columns ${how.first} to ${how.last}`,
   release: (how) => `dropping what was asked for in columns ${how.first} to ${how.last}`,
+  taken: (how) => `taking the line of ${how.of.join(" and ")} in columns ${how.first} to ${how.first + how.rows.length - 1}`,
   tag: (how) => `${how.on ? "the tag" : "taking off the tag"} “${how.tag}”`,
   status: (how) => `“${how.status}”`,
   open: () => "open",
@@ -43,6 +44,7 @@ const DONE = {
   drawn: (how) => `The line lies as drawn from column ${how.first} to ${how.first + how.rows.length - 1}.`,
   hidden: (how) => `Columns ${how.first} to ${how.last} are ${how.hidden ? "not visible" : "visible"}.`,
   release: (how) => `What was asked for in columns ${how.first} to ${how.last} is dropped.`,
+  taken: (how) => `The line of ${how.of.join(" and ")} is taken in columns ${how.first} to ${how.first + how.rows.length - 1}.`,
 };
 
 /**

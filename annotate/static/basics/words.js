@@ -35,6 +35,15 @@ export function trouble(reason, waiting, line = false) {
 }
 
 /**
+ * What was said of a photo, and by whom.
+ *
+ * @param {{text: string, by: string} | null | undefined} comment
+ */
+export function remark(comment) {
+  return comment ? `${comment.by}: ${comment.text}` : "";
+}
+
+/**
  * How surely the proposal of a photo that nobody has looked at is right, in words; nothing of others.
  *
  * @param {string} status

@@ -103,6 +103,8 @@ export function lineActions({ labelling, view, selection, previewer, brush, focu
     },
     /** @param {number} step */
     uncertain(step) {
+      const { apart } = shown();
+      if (apart.length) return act.differing(apart, step);
       const { margins } = labelling;
       if (!margins) return labelling.say(shown().blind ? "The photo is labelled blind, so nothing is known to be uncertain." : "How sure the line is, is being measured.");
       const spans = doubts(margins.margins, shown().hidden);
@@ -113,6 +115,20 @@ export function lineActions({ labelling, view, selection, previewer, brush, focu
       act.goTo(column);
       const where = first === last ? `column ${first}` : `columns ${first} to ${last}`;
       labelling.say(`Uncertain span ${at + 1} of ${spans.length}: ${where}. Another line there costs only ${margin.toFixed(2)} more.`);
+    },
+    /**
+     * Go to a span in which passes differ.
+     *
+     * @param {[number, number][]} apart - All of them.
+     * @param {number} step
+     */
+    differing(apart, step) {
+      const spans = apart.map(([first, last]) => ({ first, last, column: Math.floor((first + last) / 2), margin: 0 }));
+      const at = nextDoubt(spans, selection.now.cursor?.column, step);
+      const { first, last, column } = spans[at];
+      view.look(first, last, shown().rows?.[column] ?? 0);
+      act.goTo(column);
+      labelling.say(`Passes differ in span ${at + 1} of ${spans.length}: columns ${first} to ${last}. 1 shows their lines.`);
     },
     /** @param {number} step */
     moveColumn(step) {

@@ -80,7 +80,7 @@ export function signIn({ location, history, storage }) {
  *   : Path extends `api/sheet?${string}` ? Sheet
  *   : Path extends "api/learn" ? Learning
  *   : Path extends `api/photos/${number}/margins` ? Margins
- *   : Path extends `api/photos/${number}/alternatives` ? Alternatives
+ *   : Path extends `api/photos/${number}/alternatives?column=${number}` ? Alternatives
  *   : Path extends `api/photos/${number}/preview` | `api/photos/${number}/guide` ? Part
  *   : Path extends `api/photos/${number}/pixels/${number}/${number}` ? Explained
  *   : Path extends `api/photos/${number}` | `api/photos/${number}/${Change}` ? Document

@@ -1,8 +1,9 @@
 """What an annotator has asked of a skyline."""
 
 import numpy as np
+import pytest
 
-from annotate.engine.edits import Edits
+from annotate.engine.edits import ORIGINS, EditError, Edits
 from annotate.engine.live_wire import LiveWire
 from annotate.engine.steering import FORBIDDEN, paint
 from testing.labelling import DETECTOR, hills
@@ -67,3 +68,33 @@ def test_what_is_hidden_is_a_run_of_columns_and_is_shown_again():
     assert edits.hidden == ((10, 25), (30, 40))
     assert edits.hide(15, 35, hidden=False).hidden == ((10, 14), (36, 40))
     assert edits.release(0, 69).hidden == ()
+
+
+def test_rows_of_other_passes_are_spans_of_their_origins():
+    edits = Edits(48, 70).anchor(12, 3).hide(0, 20)
+    taken = edits.take(10, [7] * 10, [("solved", 4), ("drawn", 6)], [(18, 19)])
+    assert [(one.kind, one.first, one.last) for one in taken.spans] == [
+        ("solved", 10, 13),
+        ("drawn", 14, 19),
+    ]
+    assert taken.hidden == ((0, 9), (18, 20))
+    assert not taken.anchors
+    opened = taken.anchor(11, 5)
+    assert dict(opened.anchors) == {11: 5}
+    assert [one.kind for one in opened.spans] == ["drawn"]
+
+
+def test_origins_of_taken_rows_stay_when_the_line_is_solved_again():
+    wire = LiveWire(hills(0), DETECTOR)
+    row = int(wire.skyline.rows[40]) + 9
+    wire.edits = wire.edits.take(30, [row] * 20, [("proposal", 5), ("straight", 15)], [])
+    wire.anchor(5, 20)
+    assert [ORIGINS[one] for one in wire.origin[30:50]] == ["proposal"] * 5 + ["straight"] * 15
+
+
+@pytest.mark.parametrize(
+    ("origins", "hidden"), [([("solved", 3)], []), ([], []), ([("solved", 4)], [(9, 10)])]
+)
+def test_rows_without_their_origins_make_no_sense(origins, hidden):
+    with pytest.raises(EditError, match="what is taken over"):
+        Edits(48, 70).take(10, [7] * 4, origins, hidden)

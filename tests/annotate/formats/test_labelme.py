@@ -1,10 +1,12 @@
 """LabelMe: what its documents hold."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
 from annotate.formats import export_labels
+from annotate.store.labels import Comment
 from testing.exports import HEIGHT, WIDTH, label, put
 
 
@@ -22,3 +24,13 @@ def test_labelme_documents_have_what_labelme_asks_for(tmp_path, photos):
     assert (document["imageHeight"], document["imageWidth"]) == (HEIGHT, WIDTH)
     assert document["flags"] == {"mine": True}
     assert {shape["shape_type"] for shape in document["shapes"]} == {"linestrip"}
+
+
+def test_what_was_said_of_a_photo_is_the_description(tmp_path, photos):
+    said = replace(label(photos, "a.png"), comment=Comment("the hut is cut off", "eve"))
+    found = export_labels([said], photos, tmp_path / "out", "labelme")
+    (shape,) = json.loads((tmp_path / "out" / "a.json").read_text())["shapes"]
+    assert shape["description"] == "eve: the hut is cut off"
+    assert found.notes == ()
+    found = export_labels([said], photos, tmp_path / "csv", "csv")
+    assert found.notes == ("a.png: csv cannot carry what eve says of it.",)

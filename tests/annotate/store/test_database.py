@@ -160,6 +160,30 @@ def test_older_files_are_brought_up_to_date(store, monkeypatch):
     newer.close()
 
 
+def test_labels_from_before_comments_keep_their_standings(tmp_path, monkeypatch):
+    with monkeypatch.context() as patch:
+        patch.setattr(database, "MIGRATIONS", MIGRATIONS[:5])
+        database.connect(write_hills(tmp_path, count=1)).close()
+    with closing(sqlite3.connect(tmp_path / NAME)) as old, old:
+        old.execute("INSERT INTO photos VALUES (1, 'old', 'hill-0.png', 70, 48, 0, 0, NULL, NULL)")
+        old.execute("INSERT INTO labels (id, photo, annotator, number) VALUES (1, 1, 'ann', 1)")
+        body = '{"kind": "status", "status": "needs review"}'
+        old.execute(f"INSERT INTO operations VALUES (1, 1, 2.0, 'status', '{body}', NULL, NULL)")
+        old.execute("INSERT INTO standings VALUES (1, 1, 1, 'needs review', '[\"fog\"]', 9.0)")
+    store = Store(tmp_path)
+    card = store.cards("ann", 1)[1]
+    assert (card.status, card.tags, card.seconds) == (
+        "needs review",
+        ("fog",),
+        9.0,
+    )  # not made anew
+    assert (card.comment, store.state(1).comment) == (None, None)
+    words = {"status": "needs review", "comment": "the hut", "by": "eve"}
+    store.append(1, -1, "status", words)
+    assert str(store.cards("ann", 1)[1].comment) == "eve: the hut"
+    store.close()
+
+
 def test_a_migration_that_fails_changes_nothing(store, monkeypatch):
     store.close()
     broken = "ALTER TABLE photos ADD COLUMN place TEXT; SELECT * FROM nowhere;"

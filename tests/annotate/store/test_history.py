@@ -5,12 +5,22 @@ import json
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
-from annotate.engine.edits import Edits
+from annotate.engine.edits import EditError, Edits
 from annotate.store import checkpoints
 from annotate.store import history as log
 from annotate.store.history import LogError, folded
-from annotate.store.operations import LOGGED, SetStatus, spoken
+from annotate.store.labels import Comment
+from annotate.store.operations import (
+    LOGGED,
+    Consensus,
+    Redo,
+    SetAnchor,
+    SetStatus,
+    Undo,
+    spoken,
+)
 from testing.examples import examples
 from testing.logs import (
     EMPTY,
@@ -216,3 +226,71 @@ def test_a_checkpoint_of_another_version_counts_as_none(monkeypatch):
 )
 def test_what_undo_takes_back_has_a_name(operation, words):
     assert spoken(LOGGED.validate_json(json.dumps(operation))) == words
+
+
+def said(status, comment="", by="eve"):
+    return SetStatus(status=status, comment=comment, by=by if comment else "")
+
+
+def after(*operations):
+    state = EMPTY
+    for number, operation in enumerate(operations, 1):
+        state = state.after(operation, float(number), number)
+    return state
+
+
+REVIEW = said("needs review", "the hut is cut off")
+
+
+def test_what_was_said_goes_with_its_status():
+    assert after(REVIEW).comment == Comment("the hut is cut off", "eve")
+    assert after(REVIEW, SetAnchor(column=3, row=4)).comment is not None
+    assert after(REVIEW, said("accepted")).comment is None
+    assert after(said("rejected", "no sky")).comment == Comment("no sky", "eve")
+    assert after(said("needs review")).comment is None
+
+
+def test_undo_gives_back_what_was_said_before():
+    undo, redo = Undo(status=True), Redo(status=True)
+    other = said("needs review", "and the mast, too", "ann")
+    assert after(REVIEW, other).comment.by == "ann"
+    assert after(REVIEW, other, undo).comment.by == "eve"
+    assert after(REVIEW, other, undo, undo).comment is None
+    assert after(REVIEW, said("accepted"), undo).comment.by == "eve"
+    assert after(REVIEW, undo, redo).comment.by == "eve"
+
+
+def test_the_same_status_without_words_leaves_what_was_said():
+    state = after(REVIEW, said("needs review"))
+    assert (len(state.steps), state.comment.by) == (1, "eve")
+
+
+def test_a_consensus_changes_no_status_and_is_undone_as_a_whole():
+    rows = {"first": 0, "rows": [5] * WIDTH, "origins": [("solved", WIDTH)], "of": ["ann", "bob"]}
+    state = after(Consensus(**rows, apart=[(3, 9)]), REVIEW)
+    assert state.consensus.apart == [(3, 9)]
+    assert after(Consensus(**rows)).status == "to do"
+    assert spoken(state.steps[0].change) == "the line of ann and bob"
+    assert after(Consensus(**rows), Undo(status=True)).edits == EMPTY.edits
+    again = checkpoints.unpacked(checkpoints.packed(state, 1), 1, EMPTY.edits)
+    assert (again.consensus, again.comment, again.edits) == (
+        state.consensus,
+        state.comment,
+        state.edits,
+    )
+
+
+@pytest.mark.parametrize("words", ["x" * 301, "two\nlines", "\x07", " "])
+def test_a_comment_is_one_short_line(words):
+    with pytest.raises(ValidationError):
+        SetStatus(status="rejected", comment=words)
+
+
+@pytest.mark.parametrize(
+    ("rows", "apart"), [(WIDTH - 1, []), (WIDTH, [(3, WIDTH)]), (WIDTH, [(9, 3)])]
+)
+def test_a_consensus_is_one_of_the_whole_photo(rows, apart):
+    origins = [("solved", rows)]
+    told = Consensus(first=0, rows=[5] * rows, origins=origins, of=["ann"], apart=apart)
+    with pytest.raises(EditError, match="of all columns"):
+        after(told)

@@ -15,6 +15,7 @@ from annotate.store import checkpoints
 from annotate.store.database import MIGRATIONS, NAME, StoreError
 from annotate.store.history import LogError, State, folded
 from annotate.store.kept_states import Request
+from annotate.store.labels import Comment
 from annotate.store.lines import Line
 from annotate.store.operations import LOGGED, Redo, Undo
 from annotate.store.store import StaleError, Store
@@ -50,7 +51,8 @@ def from_log(store, label=1):
 def standing(store, label=1):
     """What is kept of it."""
     (row,) = [one[1:] for one in rows(store, table="standings", order="label") if one[0] == label]
-    return (*row[:3], tuple(json.loads(row[3])), row[4])
+    said = Comment(*row[5:]) if row[5] else None
+    return (*row[:3], tuple(json.loads(row[3])), row[4], said)
 
 
 def agrees(store, label=1):
@@ -63,6 +65,7 @@ def agrees(store, label=1):
         whole.status,
         whole.tags,
         whole.seconds,
+        whole.comment,
     )
     return whole
 
@@ -74,7 +77,9 @@ def many(store, label, count, first=0):
             ("anchor", {"column": number % 70, "row": number % 40}),
             ("hidden", {"first": number % 60, "last": number % 60 + 3, "hidden": True}),
             ("undo", {"status": True}),
-            ("status", {"status": ("accepted", "rejected")[number % 2]}),
+            ("status", {"status": "accepted"})
+            if number % 2
+            else ("status", {"status": "rejected", "comment": f"says {number}", "by": "eve"}),
             ("tag", {"tag": f"t{number % 5}", "on": True}),
             ("redo", {"status": True}),
         )[number * 7 % 6]

@@ -7,6 +7,7 @@ import pytest
 
 from annotate.store import standings
 from annotate.store.database import NAME
+from annotate.store.labels import Comment
 from annotate.store.store import Store
 from testing.labelling import write_hills
 from testing.labels import label, poisoned
@@ -27,7 +28,8 @@ def test_lists_need_no_log(folder):
 
 
 @pytest.mark.parametrize(
-    "damage", ["status = 'perfect'", "tags = '{'", "tags = '{}'", "seconds = 'long'"]
+    "damage",
+    ["status = 'perfect'", "tags = '{'", "tags = '{}'", "seconds = 'long'", "comment = 'x'"],
 )
 def test_a_damaged_standing_counts_as_none_and_is_made_from_the_log(folder, damage):
     with closing(sqlite3.connect(folder / NAME)) as database, database:
@@ -51,4 +53,15 @@ def test_a_log_that_cannot_be_read_is_a_problem_and_stays_missing(tmp_path):
         assert found[2].status == "needs review"
         assert "cannot be read" in found[2].problem
         assert standings.missing(database) == [2]
+    store.close()
+
+
+def test_lists_know_what_was_said(folder):
+    store = Store(folder)
+    store.append(1, -1, "status", {"status": "rejected", "comment": "no sky", "by": "eve"})
+    assert store.cards("ann", 1)[1].comment == Comment("no sky", "eve")
+    with closing(sqlite3.connect(folder / NAME)) as database, database:
+        database.execute("DELETE FROM standings")
+    assert store.cards("ann", 1)[1].comment == Comment("no sky", "eve")  # from the log
+    assert store.cards("ann", 1)[2].comment is None
     store.close()

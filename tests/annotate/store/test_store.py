@@ -10,8 +10,10 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import skyline_viz.files as files
+from annotate.engine.edits import EditError
 from annotate.formats import export_labels
 from annotate.store.database import NAME
+from annotate.store.kept_states import Request
 from annotate.store.lines import Line
 from annotate.store.operations import SetAnchor, SetStatus
 from annotate.store.store import StaleError, Store
@@ -82,7 +84,7 @@ def test_passes_are_kept_apart(store):
 def test_status_tags_and_time_follow_from_the_log(store, monkeypatch):
     label = store.begin(1, "ann", 1)
     clock = iter([100.0, 110.0, 115.0, 1000.0, 1001.0])
-    monkeypatch.setattr("annotate.store.store.time", lambda: next(clock))
+    monkeypatch.setattr("annotate.store.kept_states.time", lambda: next(clock))
     store.append(label, -1, "open", {})
     anchor(store, label, 3)
     store.append(label, -1, "tag", {"tag": "fog", "on": True})
@@ -151,3 +153,30 @@ def test_an_export_is_on_the_disk_before_it_is_said_to_be_there(tmp_path, monkey
     assert names <= set(said)
     assert said[-1] == tmp_path.name  # the name of the whole folder comes last
     bench.close()
+
+
+def test_several_operations_are_kept_at_once_or_none_is(store):
+    one, other = store.begin(1, "ann", 1), store.begin(2, "ann", 1)
+    tag = Request(one, -1, "tag", {"tag": "fog", "on": True})
+    refused = Request(other, -1, "remove", {"column": 3})
+    with pytest.raises(EditError, match="no anchor in column 3"):
+        store.append_all([(tag, None), (refused, None)])
+    assert store.state(one).revision == 0
+    more = Request(one, -1, "tag", {"tag": "hut", "on": True})
+    revisions = store.append_all([(tag, None), (more, None)])
+    assert store.state(one).tags == ("fog", "hut")
+    assert store.state(one).revision == revisions[-1]
+    stale = Request(one, revisions[0], "tag", {"tag": "snow", "on": True})
+    with pytest.raises(StaleError):
+        store.append_all(
+            [(Request(other, -1, "tag", {"tag": "x", "on": True}), None), (stale, None)]
+        )
+    assert store.state(other).revision == 0
+
+
+def test_labels_of_one_photo(store):
+    for photo in (1, 2):
+        for who in ("ann", "bob"):
+            store.append(store.begin(photo, who, 1), -1, "tag", {"tag": "fog", "on": True})
+    found = [(one.name, one.annotator) for one in store.labels(photo=2)]
+    assert found == [("hill-1.png", "ann"), ("hill-1.png", "bob")]

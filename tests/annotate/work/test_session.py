@@ -135,3 +135,26 @@ def test_two_at_work_on_one_label_notice_each_other(bench, session):
         session.apply(SetAnchor(column=9, row=5), session.state.revision)
     with pytest.raises(StaleError, match="changed elsewhere"):
         session.apply(Open(), session.state.revision)  # which needs no revision
+
+
+def test_what_is_said_of_a_photo_is_said_by_whoever_works(tmp_path):
+    bench = workbench(write_hills(tmp_path / "alps", count=1), reviewer="eve")
+    session = bench.session(1)
+    words = SetStatus(status="needs review", comment="the hut is cut off", by="somebody")
+    kept = session.apply(words, -1, "asked-1")
+    assert str(session.state.comment) == "eve: the hut is cut off"
+    assert session.apply(words, -1, "asked-1") == kept  # it came twice
+    with pytest.raises(EditError, match="is needs review already"):
+        session.apply(SetStatus(status="needs review"), -1)
+    session.apply(SetStatus(status="needs review", comment="and the mast"), -1)
+    session.undo(-1)
+    assert str(session.state.comment) == "eve: the hut is cut off"
+    agree(bench, session)
+    bench.close()
+
+
+def test_an_accepted_photo_needs_no_comment(session):
+    with pytest.raises(EditError, match="needs review, or is rejected"):
+        session.apply(SetStatus(status="accepted", comment="fine"), -1)
+    session.apply(SetStatus(status="rejected", comment="no sky"), -1)
+    assert session.state.comment.by == "ann"

@@ -1,0 +1,1 @@
+"""What comes after labelling: how far passes agree, and what they have in common."""

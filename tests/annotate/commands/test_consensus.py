@@ -1,0 +1,169 @@
+"""``skyline-annotate consensus``: what it writes, and what it leaves alone."""
+
+import pytest
+
+from annotate.store.operations import Draw, SetAnchor, SetStatus
+from annotate.store.store import Store
+from testing.labelling import workbench, write_hills
+from testing.labels import label, label_named, run, statuses
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Two people agree on one photo, and not on another."""
+    folder = write_hills(tmp_path / "alps")
+    label_named(folder, ["hill-0.png", "hill-1.png"], 10, "ann")
+    label_named(folder, ["hill-0.png"], 11, "bob")
+    label_named(folder, ["hill-1.png"], 30, "bob")
+    return folder
+
+
+def labels(folder):
+    store = Store(folder, reading=True)
+    found = {one.name: one for one in store.labels("consensus", 1)}
+    store.close()
+    return found
+
+
+def test_photos_are_accepted_where_all_agree_and_else_wait(folder, capsys):
+    assert run("consensus", folder) == 0
+    out = capsys.readouterr().out
+    assert "Accepted, since all agree within 2 px: 1" in out
+    assert "hill-1.png: ann and bob differ by up to 20 px in columns 0 to 69" in out
+    assert "Not in it, since fewer than two passes have decided them: 1" in out
+    found = labels(folder)
+    assert {name: one.status for name, one in found.items()} == {
+        "hill-0.png": "accepted",
+        "hill-1.png": "needs review",
+    }
+    assert set(found["hill-0.png"].skyline.rows) == {11}
+    assert str(found["hill-1.png"].comment).startswith("consensus: ann and bob differ")
+    assert found["hill-0.png"].comment is None
+
+
+def test_within_says_what_agrees(folder, capsys):
+    assert run("consensus", folder, "--within", "0.5") == 0
+    assert "Needs review, since they do not agree: 2" in capsys.readouterr().out
+    assert run("consensus", folder, "--within", "20") == 0
+    assert "Accepted, since all agree within 20 px: 2" in capsys.readouterr().out
+
+
+def test_again_nothing_is_written_that_is_there(folder, capsys):
+    run("consensus", folder)
+    before = {name: one.operations for name, one in labels(folder).items()}
+    assert run("consensus", folder) == 0
+    assert "somebody has decided or worked on them: 1" in capsys.readouterr().out
+    assert {name: one.operations for name, one in labels(folder).items()} == before
+
+
+def test_what_people_have_decided_or_begun_stays(folder, capsys):
+    run("consensus", folder)
+    bench = workbench(folder, "consensus")
+    session = bench.session(2)
+    session.apply(SetAnchor(column=30, row=20), -1)
+    rows = session.wire.skyline.rows
+    bench.close()
+    label_named(folder, ["hill-0.png", "hill-1.png"], 10, "bob")  # bob agrees by now
+    capsys.readouterr()
+    assert run("consensus", folder) == 0
+    said = capsys.readouterr()
+    assert "somebody has decided or worked on them: 2" in said.out
+    assert "labelled anew since the consensus was decided: hill-0.png, hill-1.png." in said.err
+    assert set(labels(folder)["hill-0.png"].skyline.rows) == {11}
+    kept = labels(folder)["hill-1.png"]
+    assert kept.status == "needs review"
+    assert kept.skyline.rows.tolist() == rows.tolist()
+
+
+def test_what_nobody_has_touched_follows_the_passes(folder):
+    run("consensus", folder)
+    label_named(folder, ["hill-1.png"], 12, "bob")
+    assert run("consensus", folder) == 0
+    found = labels(folder)["hill-1.png"]
+    assert (found.status, found.comment, set(found.skyline.rows)) == ("accepted", None, {11})
+
+
+def test_a_comment_of_a_person_is_work_too(folder):
+    run("consensus", folder)
+    bench = workbench(folder, "consensus", reviewer="eve")
+    bench.session(2).apply(SetStatus(status="needs review", comment="ask the guide"), -1)
+    bench.close()
+    label_named(folder, ["hill-1.png"], 10, "bob")
+    run("consensus", folder)
+    assert str(labels(folder)["hill-1.png"].comment) == "eve: ask the guide"
+
+
+def test_what_was_undone_is_no_work(folder):
+    run("consensus", folder)
+    bench = workbench(folder, "consensus")
+    session = bench.session(2)
+    session.apply(Draw(first=3, rows=[9, 9]), -1)
+    session.undo(-1)
+    bench.close()
+    label_named(folder, ["hill-1.png"], 10, "bob")
+    run("consensus", folder)
+    assert statuses(folder, "consensus")["hill-1.png"] == "accepted"
+
+
+def test_photos_that_some_have_rejected_wait_and_those_of_all_are_rejected(folder, capsys):
+    for who in ("ann", "bob"):
+        bench = workbench(folder, who)
+        bench.session(3).apply(SetStatus(status="rejected"), -1)
+        if who == "bob":
+            bench.session(1).apply(SetStatus(status="rejected"), -1)
+        bench.close()
+    assert run("consensus", folder) == 0
+    out = capsys.readouterr().out
+    assert "Rejected, as by all: 1" in out
+    assert "hill-0.png: rejected by bob, accepted by ann" in out
+    assert statuses(folder, "consensus") == {
+        "hill-0.png": "needs review",
+        "hill-1.png": "needs review",
+        "hill-2.png": "rejected",
+    }
+
+
+def test_an_export_takes_the_consensus_where_there_is_one(folder, tmp_path, capsys):
+    assert run("export", folder, "--out", tmp_path / "none") == 2
+    assert "which pass? There are ann 1, bob 1" in capsys.readouterr().err
+    run("consensus", folder)
+    for number, words in enumerate(([], ["--pass", "consensus"], ["--annotator", "consensus"])):
+        out = tmp_path / f"out-{number}"
+        assert run("export", folder, "--out", out, *words) == 0
+        assert [file.name for file in out.iterdir()] == ["hill-0.csv"]
+        assert "0,11,1" in (out / "hill-0.csv").read_text()
+    assert run("export", folder, "--out", tmp_path / "bob", "--pass", "bob") == 0
+    assert len(list((tmp_path / "bob").iterdir())) == 2
+
+
+def test_a_consensus_leaves_as_json_and_comes_back(folder, tmp_path):
+    run("consensus", folder)
+    out, again = tmp_path / "out", write_hills(tmp_path / "again")
+    words = ["--format", "json", "--status", "all", "--pass", "consensus", "--out", out]
+    assert run("export", folder, *words) == 0
+    assert run("import", again, out) == 0
+    before, after = labels(folder), labels(again)
+    for name, one in before.items():
+        assert after[name].skyline == one.skyline
+        assert after[name].comment == one.comment
+        assert after[name].origin.tolist() == one.origin.tolist()
+    assert run("consensus", label(again, "ann", row=5)) == 2  # one pass alone
+
+
+def test_columns_keep_where_they_are_from_also_after_somebody_has_decided(tmp_path):
+    folder = write_hills(tmp_path / "alps", count=1)
+    label(folder, "ann", photos=1)  # as it was proposed
+    bench = workbench(folder, "bob")
+    session = bench.session(1)
+    proposed = session.wire.skyline.rows
+    rows = (proposed[20:30] + 9).astype(int).tolist()
+    session.apply(Draw(first=20, rows=rows), -1)
+    session.apply(SetStatus(status="accepted"), -1)
+    bench.close()
+    assert run("consensus", folder) == 0
+    bench = workbench(folder, "consensus")
+    bench.session(1).apply(SetAnchor(column=25, row=int(proposed[25])), -1)
+    bench.session(1).apply(SetStatus(status="accepted"), -1)
+    bench.close()
+    found = labels(folder)["hill-0.png"]
+    assert set(found.origin[:10]) == set(found.origin[60:]) == {0}  # `proposal`
