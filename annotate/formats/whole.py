@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
 from annotate.engine.edits import ORIGINS, Origin
+from annotate.engine.hidden import Hidden
 from annotate.formats.common import Entry, FormatError, Imported, check_size
 from annotate.formats.documents import json_of
 from annotate.formats.importing import Task
@@ -32,6 +33,7 @@ MOST_OPERATIONS = 10_000
 _VERSION = 2  # 1 had no undo of a status, and a program that knows no other would misread its log
 _KNOWN = (1, 2)
 _SIDE = 100_000  # pixels
+_MADE = {"skyline", "origin", "annotator", "tags", "operations", "hidden"}  # of what was read
 
 Digest = Annotated[str, Field(pattern=r"^([0-9a-f]{64})?$")]
 Side = Annotated[int, Field(ge=1, le=_SIDE)]
@@ -44,6 +46,12 @@ class _Part(BaseModel):
 class _Line(_Part):
     rows: Annotated[list[FiniteFloat], Field(min_length=1, max_length=_SIDE)]
     visible: Annotated[list[bool], Field(min_length=1, max_length=_SIDE)]
+
+
+class _Hidden(_Part):
+    first: Annotated[int, Field(ge=0, le=_SIDE)]
+    last: Annotated[int, Field(ge=0, le=_SIDE)]
+    why: Annotated[str, Field(max_length=80)]
 
 
 class _Label(_Part):
@@ -62,6 +70,7 @@ class _Label(_Part):
     seconds: Annotated[FiniteFloat, Field(ge=0)]
     detector: Annotated[str, Field(max_length=1000)]
     blind: bool
+    hidden: Annotated[list[_Hidden], Field(max_length=_SIDE)] = []  # files of before know none
 
 
 def write_json(entries: list[Entry], folder: Path) -> None:
@@ -74,6 +83,7 @@ def write_json(entries: list[Entry], folder: Path) -> None:
                 "visible": entry.skyline.visible.tolist(),
             },
             "origin": [ORIGINS[one] for one in entry.label.origin.tolist()],
+            "hidden": [one._asdict() for one in entry.label.hidden],
         }
         labels.append(label)
     document = {"format": FORMAT, "version": _VERSION, "labels": labels}
@@ -101,7 +111,7 @@ def read_json(task: Task) -> None:
         except FormatError as error:
             task.found.problem(str(error))
         else:
-            task.found.labels.append(Imported(name, line, label.tags, label))
+            task.found.labels.append(Imported(name, line, label.tags, label, label.hidden))
     for sentence in gone(others, f"in {task.photos}"):
         task.found.note(sentence.removesuffix("."))
 
@@ -140,10 +150,11 @@ def _label(said: object, file: Path, place: int) -> Label:
         skyline = Skyline(rows=rows, visible=np.array(told.skyline.visible))
         told.name.encode()
         return Label(
-            **told.model_dump(exclude={"skyline", "origin", "annotator", "tags", "operations"}),
+            **told.model_dump(exclude=_MADE),
             annotator=check_annotator(told.annotator),
             tags=tuple(told.tags),
             operations=tuple(told.operations),
+            hidden=tuple(Hidden(**vars(one)) for one in told.hidden),
             skyline=skyline,
             origin=np.array([ORIGINS.index(one) for one in told.origin], np.uint8),
         )

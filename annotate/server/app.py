@@ -22,6 +22,7 @@ from annotate.store.history import LogError
 from annotate.store.lines import LineError
 from annotate.store.opened import BusyError
 from annotate.store.store import StaleError
+from annotate.work.guideline import GuidelineError
 from annotate.work.learning import Learner
 from annotate.work.shown import NoPictureError, Pictures
 from annotate.work.workbench import UnknownPhotoError, Workbench
@@ -48,6 +49,7 @@ _STATUSES: dict[type[Exception], int] = {
     LogError: 422,
     LineError: 422,
     ViewerError: 503,
+    GuidelineError: 422,
 }
 
 

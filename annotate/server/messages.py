@@ -10,10 +10,11 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from annotate.engine.edits import ORIGINS
 from annotate.engine.guide import Guide, along
+from annotate.engine.hidden import Hidden
 from annotate.engine.steering import Ground, Side, Stroke
 from annotate.formats import TITLES
 from annotate.store.cards import Card
-from annotate.store.labels import HIDDEN_BY, STATUSES, TAGS, Status
+from annotate.store.labels import HIDDEN_BY, NO_SKYLINE, STATUSES, TAGS, Status
 from annotate.store.operations import Operation, Place, spoken
 from annotate.work.images import BAND, TILE
 from annotate.work.session import Session
@@ -93,7 +94,7 @@ class Legend(BaseModel):
     """Tags that are offered."""
 
     hidden_by: tuple[str, ...]
-    """Tags that say why a line cannot be seen."""
+    """What may hide the line in some columns."""
 
     stages: dict[str, str]
     """Stages, and terms of the cost, that can be laid over a photo, and how each reads."""
@@ -123,6 +124,13 @@ class Legend(BaseModel):
         )
 
 
+class OwnGuideline(BaseModel):
+    """What a folder says of how it is to be labelled."""
+
+    text: str | None
+    """Plain text; None where the folder says nothing, and the page's own guideline holds."""
+
+
 class ShownPhoto(BaseModel):
     """A photo in the list."""
 
@@ -142,6 +150,12 @@ class ShownPhoto(BaseModel):
     problem: str
     """Why its label cannot be read; empty where it can."""
 
+    nothing_visible: bool
+    """Whether a tag says that nothing of its skyline can be seen."""
+
+    finished_by: tuple[str, ...]
+    """Other passes that are done with it, whatever they found."""
+
     @classmethod
     def of(cls, card: Card, *, missing: bool) -> ShownPhoto:
         """Show a card."""
@@ -159,6 +173,8 @@ class ShownPhoto(BaseModel):
             too_large=photo.height * photo.width > photo_limit() * 1e6,
             seconds=card.seconds,
             problem=card.problem,
+            nothing_visible=NO_SKYLINE in card.tags,
+            finished_by=tuple(map(shown_name, card.finished_by)),
         )
 
 
@@ -214,7 +230,12 @@ class Document(BaseModel):
     tags: tuple[str, ...]
     blind: bool
     rows: list[int] | None
-    hidden: tuple[tuple[int, int], ...]
+    hidden: tuple[Hidden, ...]
+    """Runs of columns that are not visible: the first, the last, and what hides it."""
+
+    nothing_visible: bool
+    """Whether a tag says that nothing of the skyline can be seen, so that no column counts."""
+
     anchors: list[tuple[int, int]]
     spans: list[ShownSpan]
     forbidden: tuple[Stroke, ...]
@@ -259,6 +280,7 @@ class Document(BaseModel):
             blind=session.blind,
             rows=None if wire.empty else wire.skyline.rows.astype(int).tolist(),
             hidden=edits.hidden,
+            nothing_visible=NO_SKYLINE in state.tags,
             anchors=sorted(edits.anchors.items()),
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
             forbidden=tuple(one for one in edits.strokes if isinstance(one, Stroke)),
@@ -348,13 +370,6 @@ class Alternatives(BaseModel):
     """Lines along other ridges: second opinions, then the cheapest ones."""
 
     alternatives: list[ShownAlternative]
-
-
-class Sheet(BaseModel):
-    """A page of straightened strips."""
-
-    photos: list[ShownPhoto]
-    pages: int
 
 
 _MOST_UNCERTAIN = 20

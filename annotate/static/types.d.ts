@@ -35,7 +35,8 @@ export interface Document {
   tags: string[];
   blind: boolean;
   rows: number[] | null;
-  hidden: [number, number][];
+  hidden: Hidden[];
+  nothing_visible: boolean;
   anchors: [number, number][];
   spans: ShownSpan[];
   forbidden: Stroke[];
@@ -94,12 +95,15 @@ export interface Guide {
   kind: "guide";
 }
 
+export type Hidden = [number, number, string];
+
 /** The line cannot be seen in some columns, or can be seen again. */
 export interface Hide {
   kind: "hidden";
   first: number;
   last: number;
   hidden?: boolean;
+  why?: string | null;
 }
 
 /** How far learning from the labels is. */
@@ -147,6 +151,11 @@ export interface MoveAnchor {
 /** The photo is shown: the clock starts. */
 export interface Open {
   kind: "open";
+}
+
+/** What a folder says of how it is to be labelled. */
+export interface OwnGuideline {
+  text: string | null;
 }
 
 /** The part of a line that differs from the current one. */
@@ -214,12 +223,6 @@ export interface SetTag {
   on?: boolean;
 }
 
-/** A page of straightened strips. */
-export interface Sheet {
-  photos: ShownPhoto[];
-  pages: number;
-}
-
 /** A line along another ridge. A guide along its points, with its radius, chooses it. */
 export interface ShownAlternative {
   rows: number[];
@@ -265,6 +268,8 @@ export interface ShownPhoto {
   too_large: boolean;
   seconds: number;
   problem: string;
+  nothing_visible: boolean;
+  finished_by: string[];
 }
 
 /** How far a pass is. */

@@ -202,9 +202,12 @@ def read(database: sqlite3.Connection, label: int) -> State:
 
 
 def _asked(text: str) -> dict[str, Any]:
-    """What somebody asked for, without what was found when it was done."""
+    """What somebody asked for, without what was found when it was done.
+
+    What was left open counts as not there: an older program may have known nothing of it.
+    """
     body: dict[str, Any] = json.loads(text)
-    return {name: value for name, value in body.items() if name != "found"}
+    return {name: one for name, one in body.items() if name != "found" and one is not None}
 
 
 def _fits(database: sqlite3.Connection, label: int, start: State) -> bool:

@@ -27,6 +27,10 @@ Time: TypeAlias = Annotated[int, Field(ge=0, le=2**40)]
 """Milliseconds since any moment."""
 
 
+Words: TypeAlias = Annotated[str, Field(min_length=1, max_length=80, pattern=r"^[^\x00-\x1f]+$")]
+"""A tag or a reason: one short line of text."""
+
+
 class _Operation(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
@@ -196,10 +200,12 @@ class Hide(_Operation):
     first: Place
     last: Place
     hidden: bool = True
+    why: Words | None = None
+    """What hides it. Logs of before say it nowhere, or in a tag of the photo."""
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the columns hidden or visible."""
-        return edits.hide(self.first, self.last, hidden=self.hidden)
+        return edits.hide(self.first, self.last, hidden=self.hidden, why=self.why or "")
 
 
 class Release(_Operation):
@@ -218,7 +224,7 @@ class SetTag(_Operation):
     """A tag is put on the photo, or taken off."""
 
     kind: Literal["tag"] = "tag"
-    tag: Annotated[str, Field(min_length=1, max_length=80, pattern=r"^[^\x00-\x1f]+$")]
+    tag: Words
     on_photo: Annotated[bool, Field(alias="on")] = True
 
 
@@ -309,6 +315,6 @@ def spoken(change: Change) -> str:
         return f"the line carried over from {change.name}"
     if isinstance(change, Side):
         return "all above is sky" if change.ground == "sky" else "all below is terrain"
-    if isinstance(change, Hide) and not change.hidden:
-        return "the columns shown again"
+    if isinstance(change, Hide) and (change.why or not change.hidden):
+        return f"hidden by {change.why}" if change.hidden else "the columns shown again"
     return _SPOKEN[change.kind]
