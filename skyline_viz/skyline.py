@@ -36,7 +36,8 @@ _CSV_HEADER = ["column", "row", "visible"]
 _MARGIN = "margin"
 WHY = "why"
 """Header of what hides a column, where a CSV file says it as a fourth value."""
-_CSV_HEADERS = (_CSV_HEADER, [*_CSV_HEADER, _MARGIN], [*_CSV_HEADER, WHY])
+CSV_HEADERS = (_CSV_HEADER, [*_CSV_HEADER, _MARGIN], [*_CSV_HEADER, WHY])
+"""Headers of the CSV files that hold a skyline."""
 
 
 class SkylineError(ValueError):
@@ -254,7 +255,7 @@ class Skyline:
         """
         with _naming(path), Path(path).open(newline="", encoding="utf-8-sig") as file:
             lines = [line for line in csv.reader(file) if line]
-            if not lines or lines[0] not in _CSV_HEADERS:
+            if not lines or lines[0] not in CSV_HEADERS:
                 raise SkylineError("the first line is not column,row,visible")
             header, *lines = lines
             for number, line in enumerate(lines):

@@ -98,7 +98,7 @@ def _drawn(one: Imported, height: int, status: str) -> tuple[list[tuple[float, s
         {"kind": "drawn", "first": 0, "rows": inside.astype(int).tolist()},
     ]
     tags = dict.fromkeys(_plain(tag) for tag in one.tags)
-    if NO_SKYLINE not in tags:  # which says it already
+    if NO_SKYLINE not in tags or skyline.visible.any():  # else the tag says it all
         log += [
             {"kind": "hidden", **span._asdict(), "why": span.why or None}
             for span in _hidden(skyline, one.hidden)

@@ -29,8 +29,8 @@ export class HiddenList {
 
   #renew() {
     const { hidden = [] } = this.#labelling.document ?? {};
-    button("hidden-open").hidden = !hidden.length;
-    box("hidden-count").textContent = `${hidden.length}`;
+    button("hidden-open").disabled = !hidden.length;
+    box("hidden-count").textContent = hidden.length ? `${hidden.length}` : "";
     if (!dialog("hidden-dialog").open) return;
     if (hidden.length) this.#draw();
     else dialog("hidden-dialog").close();

@@ -64,6 +64,14 @@ def test_edits_that_differ_by_one_anchor_are_known():
 
 def test_what_is_hidden_is_a_run_of_columns_and_is_shown_again():
     edits = Edits(48, 70).hide(10, 20).hide(21, 25).hide(40, 30)
-    assert edits.hidden == ((10, 25), (30, 40))
-    assert edits.hide(15, 35, hidden=False).hidden == ((10, 14), (36, 40))
+    assert edits.hidden == ((10, 25, ""), (30, 40, ""))
+    assert edits.hide(15, 35, hidden=False).hidden == ((10, 14, ""), (36, 40, ""))
     assert edits.release(0, 69).hidden == ()
+
+
+def test_what_hides_columns_stays_with_them():
+    edits = Edits(48, 70).hide(10, 25).hide(20, 40, why="fog")
+    assert edits.hidden == ((10, 19, ""), (20, 40, "fog"))
+    assert edits.release(30, 35).hidden == ((10, 19, ""), (20, 29, "fog"), (36, 40, "fog"))
+    assert edits.hide(10, 40, why="cloud").hidden == ((10, 40, "cloud"),)
+    assert edits.hidden_mask().sum() == 31

@@ -10,7 +10,7 @@ from annotate.engine.edits import Edits
 from annotate.store import checkpoints
 from annotate.store import history as log
 from annotate.store.history import LogError, folded
-from annotate.store.operations import LOGGED, SetStatus, spoken
+from annotate.store.operations import LOGGED, Hide, Redo, SetStatus, Undo, spoken
 from testing.examples import examples
 from testing.logs import (
     EMPTY,
@@ -206,6 +206,7 @@ def test_a_checkpoint_of_another_version_counts_as_none(monkeypatch):
         ({"kind": "drawn", "first": 1, "rows": [2]}, "the drawn span"),
         ({"kind": "hidden", "first": 1, "last": 2}, "the hidden columns"),
         ({"kind": "hidden", "first": 1, "last": 2, "hidden": False}, "the columns shown again"),
+        ({"kind": "hidden", "first": 1, "last": 2, "why": "fog"}, "hidden by fog"),
         ({"kind": "release", "first": 1, "last": 2}, "the release of the columns"),
         (
             {"kind": "carried", "points": [[1, 2]], "radius": 3, "name": "a.png"},
@@ -216,3 +217,24 @@ def test_a_checkpoint_of_another_version_counts_as_none(monkeypatch):
 )
 def test_what_undo_takes_back_has_a_name(operation, words):
     assert spoken(LOGGED.validate_json(json.dumps(operation))) == words
+
+
+def test_a_log_of_before_reasons_is_read_as_it_was_meant():
+    old = [
+        (1, 1.0, "hidden", '{"first": 3, "last": 9, "hidden": true, "kind": "hidden"}'),
+        (2, 2.0, "tag", '{"tag": "hidden by fog", "on": true, "kind": "tag"}'),
+    ]
+    state = folded(EMPTY, old)
+    assert state.edits.hidden == ((3, 9, ""),)
+    assert state.tags == ("hidden by fog",)
+
+
+def test_undo_takes_a_reason_back_before_what_it_explains():
+    state = folded(EMPTY, [])
+    for number, why in enumerate((None, "fog"), 1):
+        state = state.after(Hide(first=3, last=9, why=why), number, number)
+    assert state.edits.hidden == ((3, 9, "fog"),)
+    state = state.after(Undo(status=True), 3.0, 3)
+    assert state.edits.hidden == ((3, 9, ""),)
+    assert state.after(Redo(status=True), 4.0, 4).edits.hidden == ((3, 9, "fog"),)
+    assert state.after(Undo(status=True), 4.0, 4).edits.hidden == ()

@@ -52,3 +52,14 @@ def test_a_log_that_cannot_be_read_is_a_problem_and_stays_missing(tmp_path):
         assert "cannot be read" in found[2].problem
         assert standings.missing(database) == [2]
     store.close()
+
+
+def test_others_have_finished_what_they_accepted_and_no_more_is_told(folder):
+    label(folder, annotator="bob", number=2, photos=1)
+    with closing(Store(folder)) as store:
+        finished = standings.finished_by_others(store._connection, "cy", 1)
+        assert finished == {1: ("ann", "bob, pass 2"), 2: ("ann",)}
+        finished = standings.finished_by_others(store._connection, "ann", 1)
+        assert finished == {1: ("bob, pass 2",)}
+        cards = store.cards("ann", 1)
+        assert [cards[photo].finished_by for photo in (1, 2)] == [("bob, pass 2",), ()]
