@@ -34,6 +34,10 @@ PAINTS: dict[Paint, tuple[int, int, int]] = {"red": (255, 0, 0), "blue": (0, 0, 
 
 _CSV_HEADER = ["column", "row", "visible"]
 _MARGIN = "margin"
+WHY = "why"
+"""Header of what hides a column, where a CSV file says it as a fourth value."""
+CSV_HEADERS = (_CSV_HEADER, [*_CSV_HEADER, _MARGIN], [*_CSV_HEADER, WHY])
+"""Headers of the CSV files that hold a skyline."""
 
 
 class SkylineError(ValueError):
@@ -244,14 +248,14 @@ class Skyline:
 
     @classmethod
     def read_csv(cls, path: str | os.PathLike[str]) -> "Skyline":
-        """Read what `write_csv` wrote, with or without margins, which are passed over.
+        """Read what `write_csv` wrote, with or without a fourth value, which is passed over.
 
         Raises:
             SkylineError: Another header, a missing column, or a value that is no number.
         """
         with _naming(path), Path(path).open(newline="", encoding="utf-8-sig") as file:
             lines = [line for line in csv.reader(file) if line]
-            if not lines or lines[0] not in (_CSV_HEADER, [*_CSV_HEADER, _MARGIN]):
+            if not lines or lines[0] not in CSV_HEADERS:
                 raise SkylineError("the first line is not column,row,visible")
             header, *lines = lines
             for number, line in enumerate(lines):

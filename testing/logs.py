@@ -29,7 +29,10 @@ edits = st.one_of(
             "rows": st.lists(rows, min_size=1, max_size=5),
         }
     ),
-    st.fixed_dictionaries({"kind": st.just("hidden"), "first": columns, "last": columns}),
+    st.fixed_dictionaries(
+        {"kind": st.just("hidden"), "first": columns, "last": columns},
+        optional={"why": st.sampled_from([None, "fog", "cloud"])},
+    ),
     st.fixed_dictionaries({"kind": st.just("release"), "first": columns, "last": columns}),
     st.fixed_dictionaries(
         {

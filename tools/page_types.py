@@ -26,7 +26,7 @@ ANSWERED = (
     messages.Margins,
     Alternatives,
     Explained,
-    messages.Sheet,
+    messages.OwnGuideline,
     Learning,
 )
 
@@ -65,12 +65,14 @@ def types():
 
 
 def _interface(name, schema):
-    """One interface; a field with a default may be left out, but for a constant one."""
+    """One type; a field with a default may be left out, but for a constant one."""
+    says = schema.get("description", "").split("\n\n")[0].replace("\n", " ")
+    if "prefixItems" in schema:
+        return f"export type {name} = {_plain(schema)};\n"
     fields = [
         f"  {field}{_mark(field, how, schema)}: {_type(how)};"
         for field, how in schema["properties"].items()
     ]
-    says = schema.get("description", "").split("\n\n")[0].replace("\n", " ")
     return "\n".join([f"/** {says} */", f"export interface {name} {{", *fields, "}", ""])
 
 

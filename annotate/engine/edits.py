@@ -18,8 +18,9 @@ from typing import Literal, get_args
 import numpy as np
 
 from annotate.engine.guide import guide_along
+from annotate.engine.hidden import Hidden, hidden_too, shown_again
 from annotate.engine.steering import Ground, Left, Steering, Stroke, side_of
-from skyline_viz.arrays import Bool, runs
+from skyline_viz.arrays import Bool
 from skyline_viz.constraints import Anchor, StraightSpan
 
 Origin = Literal["proposal", "solved", "straight", "drawn"]
@@ -74,8 +75,8 @@ class Edits:
     strokes: tuple[Steering, ...] = ()
     """Strokes of the brush and of its eraser, guides, and sides, in their order."""
 
-    hidden: tuple[tuple[int, int], ...] = ()
-    """First and last column of each run in which the line cannot be seen, from left to right."""
+    hidden: tuple[Hidden, ...] = ()
+    """Runs of columns in which the line cannot be seen, from left to right."""
 
     def anchor(self, column: int, row: int, left: Left | None = None) -> Edits:
         """Let the line pass through a pixel.
@@ -218,12 +219,19 @@ class Edits:
         """What a hand is uncertain by where nobody says it, in pixels."""
         return max(self.height // 50, 12)
 
-    def hide(self, first: int, last: int, *, hidden: bool = True) -> Edits:
-        """Say that the line cannot be seen in columns `first` to `last`, or can be seen again."""
+    def hide(self, first: int, last: int, *, hidden: bool = True, why: str = "") -> Edits:
+        """Say that the line cannot be seen in columns `first` to `last`, or can be seen again.
+
+        Args:
+            first: First column.
+            last: Last column.
+            hidden: Whether it cannot be seen.
+            why: What hides it, in a word or two; said again, it takes the place of what was said.
+        """
         first, last = self._require_columns(first, last)
-        mask = self.hidden_mask()
-        mask[first : last + 1] = hidden
-        return self._with(hidden=tuple(runs(mask)))
+        if not hidden:
+            return self._with(hidden=shown_again(self.hidden, first, last))
+        return self._with(hidden=hidden_too(self.hidden, Hidden(first, last, why)))
 
     def release(self, first: int, last: int) -> Edits:
         """Drop what was asked for in columns `first` to `last`, and strokes that begin there."""
@@ -266,7 +274,7 @@ class Edits:
     def hidden_mask(self) -> Bool:
         """``(W,)`` True where the line cannot be seen."""
         mask: Bool = np.zeros(self.width, np.bool_)
-        for first, last in self.hidden:
+        for first, last, _ in self.hidden:
             mask[first : last + 1] = True
         return mask
 
@@ -280,7 +288,7 @@ class Edits:
         anchors: Mapping[int, int] | None = None,
         spans: Iterable[Span] | None = None,
         strokes: Iterable[Steering] | None = None,
-        hidden: tuple[tuple[int, int], ...] | None = None,
+        hidden: tuple[Hidden, ...] | None = None,
     ) -> Edits:
         held = self.anchors if anchors is None else MappingProxyType(dict(anchors))
         steering = self.strokes if strokes is None else tuple(strokes)

@@ -239,9 +239,9 @@ class LiveWire:
         """Say that all above a stroke is sky, or all below it terrain, see `Edits.side`."""
         return self._change(lambda edits: edits.side(points, ground))
 
-    def hide(self, first: int, last: int, *, hidden: bool = True) -> Skyline:
-        """Say where the line cannot be seen, see `Edits.hide`."""
-        return self._change(lambda edits: edits.hide(first, last, hidden=hidden))
+    def hide(self, first: int, last: int, *, hidden: bool = True, why: str = "") -> Skyline:
+        """Say where the line cannot be seen, and why, see `Edits.hide`."""
+        return self._change(lambda edits: edits.hide(first, last, hidden=hidden, why=why))
 
     def preview(self, column: int, row: int, lifted: int | None = None, within: int = 0) -> Skyline:
         """The line as it would be with one more anchor; nothing changes.

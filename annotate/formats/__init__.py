@@ -7,7 +7,7 @@ mask      ``masks/NAME.png``: 0 sky, 255 terrain    nothing
 painted   the Web layout: photos, and photos with   which columns are visible
           the line in pure red
 ch1       the CH1 layout: photos, ``-mask`` files   nothing
-csv       ``NAME.csv``: column, row, visible        which columns are visible
+csv       ``NAME.csv``: column, row, visible        which columns are visible, why not
 json      ``labels.json``                           everything
 coco      ``annotations-polygon.json``,             nothing
           ``annotations-rle.json``
@@ -24,7 +24,7 @@ from __future__ import annotations
 import io
 import shutil
 import zipfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -37,6 +37,7 @@ from annotate.formats.common import (
     names_below,
     one_each,
     orphans_of,
+    with_a_line,
 )
 from annotate.formats.copies import unite_copies
 from annotate.formats.documents import unpacked
@@ -91,6 +92,7 @@ WITHOUT_PHOTOS = ("csv", "json")
 
 _LOSES_VISIBILITY = ("mask", "ch1", "coco")
 _CARRIES_COMMENTS = ("json", "labelme")
+_NEEDS_A_LINE = (*_LOSES_VISIBILITY, "painted")
 
 
 @dataclass(frozen=True)
@@ -144,12 +146,13 @@ def export_labels(
     if not entries:
         reasons = f" {notes[0]}" if notes else ""
         raise FormatError(f"there is nothing to export: no photo has been accepted.{reasons}")
-    if format in _LOSES_VISIBILITY:
-        for entry in entries:
-            if not entry.skyline.visible.all():
-                notes.append(
-                    f"{entry.label.name}: {format} cannot say which columns are not visible."
-                )
+    if format in _NEEDS_A_LINE:
+        entries, more = with_a_line(entries, format)
+        notes += more
+    if not entries:
+        raise FormatError(f"there is nothing to export. {notes[0]}")
+    for entry in entries:
+        notes += _lost(entry, format)
     if format not in _CARRIES_COMMENTS:
         notes += [
             f"{entry.label.name}: {format} cannot carry what {entry.label.comment.by} says of it."
@@ -165,6 +168,14 @@ def export_labels(
             out.rmdir()  # it is empty
         move_folder(inside, out)
     return Export(len(entries), tuple(notes))
+
+
+def _lost(entry: Entry, format: str) -> Iterator[str]:  # noqa: A002
+    """A sentence for what a format cannot say of the columns that are not visible."""
+    if format in _LOSES_VISIBILITY and not entry.skyline.visible.all():
+        yield f"{entry.label.name}: {format} cannot say which columns are not visible."
+    elif format not in WITHOUT_PHOTOS and any(one.why for one in entry.label.hidden):
+        yield f"{entry.label.name}: {format} cannot say why columns are not visible."
 
 
 def archive(

@@ -12,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from annotate.engine.hidden import Hidden
 from annotate.store.contents import Contents
 from annotate.store.labels import Label
 from skyline_viz.arrays import runs
@@ -47,6 +48,9 @@ class Imported:
     tags: tuple[str, ...] = ()
     label: Label | None = None
     """The whole label, where the format carries it."""
+
+    hidden: tuple[Hidden, ...] = ()
+    """What hides columns that are not visible, where the format carries it."""
 
 
 Writer: TypeAlias = Callable[[list[Entry], Path], None]
@@ -108,6 +112,16 @@ def one_each(entries: list[Entry]) -> tuple[list[Entry], list[str]]:
                 f"{kept.number}, is in it, not that of {left.annotator}, pass {left.number}."
             )
     return list(first.values()), notes
+
+
+def with_a_line(entries: list[Entry], format: str) -> tuple[list[Entry], list[str]]:  # noqa: A002
+    """Labels of which something is visible, and a sentence for each other one."""
+    notes = [
+        f"{one.label.name} has no visible skyline, which {format} cannot say, and is left out."
+        for one in entries
+        if not one.skyline.visible.any()
+    ]
+    return [one for one in entries if one.skyline.visible.any()], notes
 
 
 def safe_stems(names: Iterable[str]) -> dict[str, str]:

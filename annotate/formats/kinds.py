@@ -7,6 +7,7 @@ from typing import Any
 
 from annotate.formats.documents import json_of, xml_of
 from skyline_viz.photo import PHOTO_SUFFIXES
+from skyline_viz.skyline import CSV_HEADERS
 
 READ = frozenset({"json", "coco", "labelme", "cvat", "csv", "mask"})
 """Kinds that are formats; any other kind is in words."""
@@ -85,7 +86,7 @@ def _other_kind(document: dict[str, Any]) -> str:
 
 
 def _kind_of_csv(first: str) -> str:
-    if first in ("column,row,visible", "column,row,visible,margin"):
+    if first in map(",".join, CSV_HEADERS):
         return "csv"
     if "region_shape_attributes" in first:
         return "CSV of the VGG Image Annotator; export COCO instead"

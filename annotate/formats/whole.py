@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
 from annotate.engine.edits import ORIGINS, Origin
+from annotate.engine.hidden import Hidden
 from annotate.formats.common import Entry, Imported, check_size
 from annotate.formats.documents import json_of
 from annotate.formats.importing import Task
@@ -42,6 +43,15 @@ MOST_OPERATIONS = 10_000
 _VERSION = 2  # 1 had no undo of a status, and a program that knows no other would misread its log
 _KNOWN = (1, 2)
 _SIDE = 100_000  # pixels
+_MADE = {
+    "skyline",
+    "origin",
+    "annotator",
+    "tags",
+    "operations",
+    "hidden",
+    "comment",
+}  # of what was read
 
 Digest = Annotated[str, Field(pattern=r"^([0-9a-f]{64})?$")]
 Side = Annotated[int, Field(ge=1, le=_SIDE)]
@@ -61,6 +71,12 @@ class _Comment(_Part):
     by: Annotated[str, Field(max_length=LONGEST_NAME)]
 
 
+class _Hidden(_Part):
+    first: Annotated[int, Field(ge=0, le=_SIDE)]
+    last: Annotated[int, Field(ge=0, le=_SIDE)]
+    why: Annotated[str, Field(max_length=80)]
+
+
 class _Label(_Part):
     name: Annotated[str, Field(min_length=1, max_length=4096)]
     digest: Digest
@@ -78,6 +94,7 @@ class _Label(_Part):
     detector: Annotated[str, Field(max_length=1000)]
     blind: bool
     comment: _Comment | None = None
+    hidden: Annotated[list[_Hidden], Field(max_length=_SIDE)] = []  # files of before know none
 
 
 def write_json(entries: list[Entry], folder: Path) -> None:
@@ -91,6 +108,7 @@ def write_json(entries: list[Entry], folder: Path) -> None:
             },
             "origin": [ORIGINS[one] for one in entry.label.origin.tolist()],
             "comment": entry.label.comment and vars(entry.label.comment),
+            "hidden": [one._asdict() for one in entry.label.hidden],
         }
         labels.append(label)
     document = {"format": FORMAT, "version": _VERSION, "labels": labels}
@@ -118,7 +136,7 @@ def read_json(task: Task) -> None:
         except FormatError as error:
             task.found.problem(str(error))
         else:
-            task.found.labels.append(Imported(name, line, label.tags, label))
+            task.found.labels.append(Imported(name, line, label.tags, label, label.hidden))
     for sentence in gone(others, f"in {task.photos}"):
         task.found.note(sentence.removesuffix("."))
 
@@ -157,13 +175,12 @@ def _label(said: object, file: Path, place: int) -> Label:
         skyline = Skyline(rows=rows, visible=np.array(told.skyline.visible))
         told.name.encode()
         return Label(
-            **told.model_dump(
-                exclude={"skyline", "origin", "annotator", "tags", "operations", "comment"}
-            ),
+            **told.model_dump(exclude=_MADE),
             comment=Comment(**vars(told.comment)) if told.comment else None,
             annotator=check_annotator(told.annotator),
             tags=tuple(told.tags),
             operations=tuple(told.operations),
+            hidden=tuple(Hidden(**vars(one)) for one in told.hidden),
             skyline=skyline,
             origin=np.array([ORIGINS.index(one) for one in told.origin], np.uint8),
         )

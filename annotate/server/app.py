@@ -22,6 +22,7 @@ from annotate.store.history import LogError
 from annotate.store.lines import LineError
 from annotate.store.opened import BusyError
 from annotate.store.store import StaleError
+from annotate.work.guideline import GuidelineError
 from annotate.work.shown import NoPictureError
 from annotate.work.workbench import UnknownPhotoError, Workbench
 from skyline_viz.constraints import PathError
@@ -47,6 +48,7 @@ _STATUSES: dict[type[Exception], int] = {
     LogError: 422,
     LineError: 422,
     ViewerError: 503,
+    GuidelineError: 422,
 }
 
 

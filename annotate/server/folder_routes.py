@@ -1,21 +1,23 @@
-"""Routes of the whole folder: its photos, sheets of strips, exports, learning."""
+"""Routes of the whole folder: its photos, its guideline, exports, learning."""
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from fastapi import APIRouter, HTTPException, Query, Response
+from fastapi import APIRouter, HTTPException, Response
 
 from annotate.formats import FORMATS, archive
 from annotate.server.dependencies import Bench, TheLearner
-from annotate.server.messages import Legend, Nothing, PhotoList, Sheet, ShownPhoto, ShownProgress
-from annotate.store.cards import Card
+from annotate.server.messages import (
+    Legend,
+    Nothing,
+    OwnGuideline,
+    PhotoList,
+    ShownPhoto,
+    ShownProgress,
+)
+from annotate.work.guideline import own_guideline
 from annotate.work.learning import Learning
-from annotate.work.workbench import Workbench
 
 router = APIRouter()
-
-_SHEET = 24  # strips a page
 
 
 @router.get("/legend")
@@ -33,22 +35,15 @@ def photos(bench: Bench) -> PhotoList:
         folder=bench.store.folder.resolve().name,
         annotator=who.annotator,
         number=who.number,
-        photos=_shown(bench, cards),
+        photos=[ShownPhoto.of(one, missing=not bench.store.is_here(one.photo)) for one in cards],
         progress=ShownProgress.of(bench.progress(cards)),
     )
 
 
-@router.get("/sheet")
-def sheet(
-    bench: Bench,
-    status: Annotated[str, Query(max_length=20)] = "to do",
-    page: Annotated[int, Query(ge=0, le=10**6)] = 0,
-) -> Sheet:
-    """A page of photos with one status, or with ``all`` of them."""
-    cards = [card for card in bench.cards() if status in ("all", card.status)]
-    pages = max(-(-len(cards) // _SHEET), 1)
-    first = min(page, pages - 1) * _SHEET
-    return Sheet(photos=_shown(bench, cards[first : first + _SHEET]), pages=pages)
+@router.get("/guideline")
+def guideline(bench: Bench) -> OwnGuideline:
+    """What the folder says of how it is to be labelled."""
+    return OwnGuideline(text=own_guideline(bench.store.folder))
 
 
 @router.post("/learn")
@@ -74,7 +69,3 @@ def export(bench: Bench, format: str) -> Response:  # noqa: A002
     data = archive(accepted, bench.store.folder, format, found.contents, found.notes)
     name = f'attachment; filename="skylines-{format}.zip"'
     return Response(data, media_type="application/zip", headers={"Content-Disposition": name})
-
-
-def _shown(bench: Workbench, cards: list[Card]) -> list[ShownPhoto]:
-    return [ShownPhoto.of(one, missing=not bench.store.is_here(one.photo)) for one in cards]

@@ -10,10 +10,11 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from annotate.engine.edits import ORIGINS
 from annotate.engine.guide import Guide
+from annotate.engine.hidden import Hidden
 from annotate.engine.steering import Ground, Side, Stroke
 from annotate.formats import TITLES
 from annotate.store.cards import Card
-from annotate.store.labels import HIDDEN_BY, STATUSES, TAGS, Comment, Status
+from annotate.store.labels import HIDDEN_BY, NO_SKYLINE, STATUSES, TAGS, Comment, Status
 from annotate.store.operations import Operation, Place, spoken
 from annotate.work.choices import spans_apart
 from annotate.work.images import BAND, TILE
@@ -93,7 +94,7 @@ class Legend(BaseModel):
     """Tags that are offered."""
 
     hidden_by: tuple[str, ...]
-    """Tags that say why a line cannot be seen."""
+    """What may hide the line in some columns."""
 
     stages: dict[str, str]
     """Stages, and terms of the cost, that can be laid over a photo, and how each reads."""
@@ -135,6 +136,13 @@ class ShownComment(BaseModel):
         return cls(**vars(comment)) if comment else None
 
 
+class OwnGuideline(BaseModel):
+    """What a folder says of how it is to be labelled."""
+
+    text: str | None
+    """Plain text; None where the folder says nothing, and the page's own guideline holds."""
+
+
 class ShownPhoto(BaseModel):
     """A photo in the list."""
 
@@ -155,6 +163,12 @@ class ShownPhoto(BaseModel):
     problem: str
     """Why its label cannot be read; empty where it can."""
 
+    nothing_visible: bool
+    """Whether a tag says that nothing of its skyline can be seen."""
+
+    finished_by: tuple[str, ...]
+    """Other passes that are done with it, whatever they found."""
+
     @classmethod
     def of(cls, card: Card, *, missing: bool) -> ShownPhoto:
         """Show a card."""
@@ -173,6 +187,8 @@ class ShownPhoto(BaseModel):
             seconds=card.seconds,
             comment=ShownComment.of(card.comment),
             problem=card.problem,
+            nothing_visible=NO_SKYLINE in card.tags,
+            finished_by=tuple(map(shown_name, card.finished_by)),
         )
 
 
@@ -228,7 +244,12 @@ class Document(BaseModel):
     tags: tuple[str, ...]
     blind: bool
     rows: list[int] | None
-    hidden: tuple[tuple[int, int], ...]
+    hidden: tuple[Hidden, ...]
+    """Runs of columns that are not visible: the first, the last, and what hides it."""
+
+    nothing_visible: bool
+    """Whether a tag says that nothing of the skyline can be seen, so that no column counts."""
+
     anchors: list[tuple[int, int]]
     spans: list[ShownSpan]
     forbidden: tuple[Stroke, ...]
@@ -279,6 +300,7 @@ class Document(BaseModel):
             blind=session.blind,
             rows=None if wire.empty else wire.skyline.rows.astype(int).tolist(),
             hidden=edits.hidden,
+            nothing_visible=NO_SKYLINE in state.tags,
             anchors=sorted(edits.anchors.items()),
             spans=[ShownSpan(kind=one.kind, first=one.first, last=one.last) for one in edits.spans],
             forbidden=tuple(one for one in edits.strokes if isinstance(one, Stroke)),
@@ -338,13 +360,6 @@ class Margins(BaseModel):
                 uncertain.append(column)
         values = [finite(value, 4) for value in margins.tolist()]
         return cls(revision=revision, margins=values, uncertain=uncertain)
-
-
-class Sheet(BaseModel):
-    """A page of straightened strips."""
-
-    photos: list[ShownPhoto]
-    pages: int
 
 
 _MOST_UNCERTAIN = 20

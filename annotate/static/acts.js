@@ -11,6 +11,7 @@ import { stagesAddress } from "./server/api.js";
 /** @import { lineActions } from "./gestures/line_actions.js" */
 /** @import { Brush } from "./around/brush.js" */
 /** @import { ExplainedPanel } from "./around/explained.js" */
+/** @import { HiddenList } from "./around/hidden_list.js" */
 /** @import { Overlay } from "./around/overlay.js" */
 /** @import { Sheet } from "./around/sheet.js" */
 /** @import { Toolbar } from "./around/toolbar.js" */
@@ -29,7 +30,9 @@ import { stagesAddress } from "./server/api.js";
  * @property {Stage} stage
  * @property {ExplainedPanel} explained
  * @property {Brush} brush
+ * @property {HiddenList} hiddenList
  * @property {() => void} help - Shows all keys.
+ * @property {() => void} guideline - Shows what the skyline is.
  */
 
 /** @typedef {ReturnType<typeof makeActs>} Acts */
@@ -39,10 +42,11 @@ import { stagesAddress } from "./server/api.js";
  *
  * @param {Parts} parts
  */
-export function makeActs({ labelling, line, pointer, actions, toolbar, overlay, sheet, selection, stage, explained, brush, help }) {
+export function makeActs({ labelling, line, pointer, actions, toolbar, overlay, sheet, selection, stage, explained, brush, hiddenList, help, guideline }) {
   return {
     ...line,
     help,
+    guideline,
     escape() {
       pointer.drop();
       line.escape();
@@ -57,11 +61,11 @@ export function makeActs({ labelling, line, pointer, actions, toolbar, overlay, 
     finish: (status) => actions.finish(status),
     /** @param {Status} status */
     setStatus: (status) => actions.setStatus(status),
-    /** Take back what was done last: with a guide that is being made, its last corner. */
-    undo: () => (selection.now.corners.length && !sheet.shown ? line.dropCorner() : actions.undo()),
+    undo: () => actions.undo(),
     redo: () => actions.redo(),
     tags: () => actions.tags(),
     comment: () => actions.comment(),
+    hiddenList: () => hiddenList.show(),
     /** @param {string} key */
     tool: (key) => toolbar.choose(key),
     overlay: () => overlay.next(),

@@ -26,7 +26,7 @@ export function keyTable(act) {
     one("Shift+R", "Needs review or reject, with a sentence", () => act.comment(), "R"),
     one("Q", "Reject, next photo", () => act.finish("rejected"), "q"),
     one("C", "Set the photo back: it is to do again", () => act.setStatus("to do"), "c"),
-    one("T", "Tags; there a digit ticks one", () => act.tags(), "t"),
+    one("T", "Tags; there a digit ticks one, and T closes them", () => act.tags(), "t"),
     one("U, Ctrl+Z", "Undo", () => act.undo(), "u", "Ctrl+z"),
     one("Y, Ctrl+Shift+Z", "Redo", () => act.redo(), "y", "Ctrl+y", "Ctrl+Z"),
     ...part("Where to look"),
@@ -41,6 +41,7 @@ export function keyTable(act) {
     one("W", "Sheet: photos and strips, many at once", () => act.sheet(), "w"),
     one("P", "Show or hide the list of photos", () => act.list(), "p"),
     one("/", "Search photos", () => act.search(), "/"),
+    one("Shift+G", "Guideline: what the skyline is", () => act.guideline(), "G"),
     one("?", "These keys", () => act.help(), "?"),
     ...part("The line, with a cursor"),
     one("← →", "Move the column cursor; with Shift 10, with Ctrl 100 columns", (event) =>
@@ -55,6 +56,7 @@ export function keyTable(act) {
     one("L", "Straight line from the mark to the cursor", () => act.straight(), "l"),
     one("K", "The line cannot be seen from the mark to the cursor", () => act.hide(true), "k"),
     one("V", "It can be seen again there", () => act.hide(false), "v"),
+    one("Shift+K", "List of hidden columns: what hides them", () => act.hiddenList(), "K"),
     one("X", "Drop all that was asked for there", () => act.release(), "x"),
     one("F, Shift+F", "Keep the line away from the cursor; allow it again", (event) => act.forbid(event.shiftKey), "f", "F"),
     one("Escape", "Drop the mark and what is being shown", () => act.escape(), "Escape"),
@@ -77,11 +79,12 @@ export const GESTURES = /** @type {const} */ ([
   ["Finger: tap, or aim and let go", "The line passes through there; what is under the finger is magnified"],
   ["Finger: draw along a ridge", "A guide"],
   ["Two fingers", "Zoom and move the photo"],
-  ["Ctrl+click, Shift+click in the list", "Choose several photos"],
+  ["Ctrl+click, Shift+click in the list or sheet", "Choose several photos"],
+  ["Finger: rest on one in the list or sheet", "Choose it, and with taps from then on others"],
 ]);
 
 /** Keys that work in the sheet, too, on the photo of its card. */
-const EVERYWHERE = new Set([" ", "r", "R", "q", "c", "u", "Ctrl+z", "y", "Ctrl+y", "Ctrl+Z", "t", "p", "/", "?"]);
+const EVERYWHERE = new Set([" ", "r", "R", "q", "c", "u", "Ctrl+z", "y", "Ctrl+y", "Ctrl+Z", "t", "p", "/", "?", "G"]);
 
 /**
  * What a key does where nothing is being typed; undefined where it does nothing.

@@ -13,14 +13,16 @@ import { Choices } from "./around/choices.js";
 import { Chosen } from "./around/chosen.js";
 import { closeWelcome, learn, prepare, showHelp, showMore, welcome } from "./around/dialogs.js";
 import { ExplainedPanel } from "./around/explained.js";
+import { showGuideline } from "./around/guideline.js";
 import { Header } from "./around/header.js";
+import { HiddenList } from "./around/hidden_list.js";
 import { Messages } from "./around/messages.js";
 import { Overlay } from "./around/overlay.js";
 import { PhotoList } from "./around/photo_list.js";
 import { Sheet } from "./around/sheet.js";
 import { Toolbar } from "./around/toolbar.js";
 import { Tour } from "./around/tour.js";
-import { around, box, button, canvas } from "./basics/dom.js";
+import { around, box, busy, button, canvas } from "./basics/dom.js";
 import { restoreTheme, turnTheme } from "./basics/theme.js";
 import { remark } from "./basics/words.js";
 import { Stage } from "./drawn/stage.js";
@@ -55,8 +57,11 @@ new Strips(labelling, view, selection, line.goTo);
 new Messages(labelling, goHome);
 const chosen = new Chosen(labelling, goHome);
 const sheet = new Sheet(labelling, chosen, focus);
-const actions = new Actions(labelling, sheet);
-new Header(labelling, actions, sheet);
+const actions = new Actions(labelling, sheet, {
+  says: () => (selection.now.corners.length ? "the last corner of the guide" : ""), drop: () => line.dropCorner(),
+});
+new Header({ labelling, actions, sheet, selection });
+const hiddenList = new HiddenList(labelling, line);
 new PhotoList(labelling, chosen, (id, clicked) => {
   sheet.hide();
   if (clicked) {
@@ -67,11 +72,12 @@ new PhotoList(labelling, chosen, (id, clicked) => {
 });
 const toolbar = new Toolbar(box("tools"));
 const pointer = new Pointer({ canvas: lines, view, selection, labelling, previewer, brush, line: { ...line, anchor: line.setAnchor, goTo: line.select, explain: (pixel) => explained.show(pixel) } });
-const act = makeActs({ labelling, selection, stage, line, pointer, actions, toolbar, overlay, sheet, explained, brush, help: () => showHelp(table, GESTURES) });
+const act = makeActs({ labelling, selection, stage, line, pointer, actions, toolbar, overlay, sheet, explained, brush, hiddenList, help: () => showHelp(table, GESTURES), guideline: showGuideline });
 const table = keyTable(act);
 const tour = new Tour(focus);
 
 sheet.on("finish", (status) => actions.finish(status));
+sheet.on("tick", (number) => actions.tick(number));
 chosen.on("finish", ({ photos, status }) => actions.finishAll(photos, status));
 toolbar.on("tool", ({ id, name, title }) => {
   pointer.use(id);
@@ -95,13 +101,13 @@ listen(table, (event) => {
   const typing = around(event, "input:not([type=range]), select, textarea");
   const pressing = (event.key === " " || event.key === "Enter") && around(event, "button, [role=option]");
   const moving = event.key.startsWith("Arrow") && around(event, "input, [role=listbox], [role=radiogroup]");
-  return Boolean(tour.shown || typing || pressing || moving || document.querySelector("dialog[open]"));
+  return Boolean(busy() || typing || pressing || moving);
 }, () => sheet.shown);
 letGo("z", () => act.magnify(false));
 const buttons = {
   "list-toggle": act.list, previous: () => act.step(-1), next: () => act.step(1), undo: act.undo, redo: act.redo,
   accept: () => act.finish("accepted"), review: () => act.finish("needs review"), reject: () => act.finish("rejected"),
-  tags: act.tags, "comment-open": act.comment, help: act.help, others: act.others, fit: () => view.fit(), "sheet-open": act.sheet, stages: act.stages,
+  tags: act.tags, "comment-open": act.comment, "hidden-open": act.hiddenList, guideline: act.guideline, help: act.help, others: act.others, fit: () => view.fit(), "sheet-open": act.sheet, stages: act.stages,
   more: () => showMore(labelling), learn: () => learn(labelling), theme: turnTheme,
 };
 for (const [id, run] of Object.entries(buttons)) button(id).addEventListener("click", () => run());

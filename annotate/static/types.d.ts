@@ -35,7 +35,8 @@ export interface Document {
   tags: string[];
   blind: boolean;
   rows: number[] | null;
-  hidden: [number, number][];
+  hidden: Hidden[];
+  nothing_visible: boolean;
   anchors: [number, number][];
   spans: ShownSpan[];
   forbidden: Stroke[];
@@ -96,12 +97,15 @@ export interface Guide {
   kind: "guide";
 }
 
+export type Hidden = [number, number, string];
+
 /** The line cannot be seen in some columns, or can be seen again. */
 export interface Hide {
   kind: "hidden";
   first: number;
   last: number;
   hidden?: boolean;
+  why?: string | null;
 }
 
 /** How far learning from the labels is. */
@@ -149,6 +153,11 @@ export interface MoveAnchor {
 /** The photo is shown: the clock starts. */
 export interface Open {
   kind: "open";
+}
+
+/** What a folder says of how it is to be labelled. */
+export interface OwnGuideline {
+  text: string | null;
 }
 
 /** The part of a line that differs from the current one. */
@@ -218,12 +227,6 @@ export interface SetTag {
   on?: boolean;
 }
 
-/** A page of straightened strips. */
-export interface Sheet {
-  photos: ShownPhoto[];
-  pages: number;
-}
-
 /** Another line. A guide along its points, with its radius, chooses it, or what `take` says. */
 export interface ShownAlternative {
   rows: number[];
@@ -278,6 +281,8 @@ export interface ShownPhoto {
   seconds: number;
   comment: ShownComment | null;
   problem: string;
+  nothing_visible: boolean;
+  finished_by: string[];
 }
 
 /** How far a pass is. */

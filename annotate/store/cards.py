@@ -3,10 +3,13 @@
 import sqlite3
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from annotate.store.identity import Photo
 from annotate.store.labels import Comment
 from annotate.store.standings import Standing
+
+_NOBODY: Mapping[int, tuple[str, ...]] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -27,6 +30,9 @@ class Card:
     comment: Comment | None = None
     problem: str = ""
     """A sentence that says why its log cannot be read, if so."""
+
+    finished_by: tuple[str, ...] = ()
+    """Other passes that have accepted or rejected the photo. What they found is told nowhere."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +62,7 @@ def cards_of(
     begun: Mapping[int, _Begun],
     stand: Mapping[int, Standing],
     unreadable: Mapping[int, str],
+    finished: Mapping[int, tuple[str, ...]] = _NOBODY,
 ) -> dict[int, Card]:
     """A card for each photo, by its id.
 
@@ -64,6 +71,7 @@ def cards_of(
         begun: The labels of a pass, as `labels_of_pass` gives them.
         stand: Where labels stand, by their id.
         unreadable: Why logs could not be read, by the id of their label; this counts more.
+        finished: Other passes that are done with a photo, by its id.
     """
     cards = {}
     for photo in photos:
@@ -72,6 +80,11 @@ def cards_of(
         if one.label is not None and one.label in unreadable:  # its standing may look well
             where = Standing("needs review", problem=unreadable[one.label])
         cards[photo.id] = Card(
-            photo, one.label, confidence=one.confidence, blind=one.blind, **vars(where)
+            photo,
+            one.label,
+            confidence=one.confidence,
+            blind=one.blind,
+            finished_by=finished.get(photo.id, ()),
+            **vars(where),
         )
     return cards

@@ -14,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from annotate.engine.edits import Edits, Origin, Span
 from annotate.engine.guide import Guide
+from annotate.engine.hidden import Hidden
 from annotate.engine.steering import Ground, Left, Side, Steering, Stroke
 from annotate.store.history import State, Step
 from annotate.store.labels import Status
@@ -68,7 +69,7 @@ class _Checkpoint(_Part):
     anchors: list[tuple[int, int]]
     spans: tuple[_Span, ...]
     strokes: tuple[_Stroke | _Guide | _Side | _Left, ...]
-    hidden: tuple[tuple[int, int], ...]
+    hidden: tuple[Hidden, ...]
     steps: list[tuple[Change, Status]]
     taken: tuple[Change, ...]
     status: Status

@@ -246,9 +246,13 @@ def read(database: sqlite3.Connection, label: int) -> State:
 
 
 def _asked(text: str) -> dict[str, Any]:
-    """What somebody asked for, without what was found when it was done, and who it was."""
+    """What somebody asked for, without what was found when it was done, and who it was.
+
+    What was left open counts as not there: an older program may have known nothing of it.
+    """
     body: dict[str, Any] = json.loads(text)
-    return {name: value for name, value in body.items() if name not in ("found", "by")}
+    left = ("found", "by")
+    return {name: one for name, one in body.items() if name not in left and one is not None}
 
 
 def _fits(database: sqlite3.Connection, label: int, start: State) -> bool:

@@ -11,8 +11,9 @@ import numpy as np
 
 from annotate.store.history import State
 from annotate.store.kept_states import revision
-from annotate.store.labels import Label
+from annotate.store.labels import NO_SKYLINE, Label
 from annotate.store.lines import Line, LineError
+from skyline_viz.skyline import Skyline
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +122,7 @@ def whole_label(database: sqlite3.Connection, label: int, state: State) -> Label
         number=which,
         status=state.status,
         tags=state.tags,
-        skyline=state.line.skyline if state.line else None,
+        skyline=seen(state.line.skyline, state.tags) if state.line else None,
         origin=state.line.origin if state.line else np.zeros(width, np.uint8),
         operations=tuple({**json.loads(body), "kind": kind, "at": at} for at, kind, body in log),
         seconds=state.seconds,
@@ -129,4 +130,12 @@ def whole_label(database: sqlite3.Connection, label: int, state: State) -> Label
         blind=bool(blind),
         comment=state.comment,
         pixels=pixels or "",
+        hidden=state.edits.hidden,
     )
+
+
+def seen(line: Skyline, tags: Sequence[str]) -> Skyline:
+    """A line as it counts: nothing of it is visible where the tags say that no skyline is."""
+    if NO_SKYLINE not in tags:
+        return line
+    return Skyline(rows=line.rows, visible=np.zeros(line.width, np.bool_))

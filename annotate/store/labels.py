@@ -8,6 +8,7 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 import numpy.typing as npt
 
+from annotate.engine.hidden import Hidden
 from skyline_viz.arrays import read_only
 from skyline_viz.skyline import Skyline
 
@@ -17,17 +18,14 @@ Status: TypeAlias = Literal["to do", "in progress", "accepted", "needs review", 
 STATUSES: tuple[Status, ...] = get_args(Status)
 """All of them."""
 
-TAGS = ("no visible skyline", "not left to right", "needs terrain data")
+NO_SKYLINE = "no visible skyline"
+"""The tag of a photo in which nothing of the line can be seen, whatever its line is."""
+
+TAGS = (NO_SKYLINE, "not left to right", "needs terrain data")
 """Tags that are offered; annotators add their own."""
 
-HIDDEN_BY = (
-    "hidden by cloud",
-    "hidden by fog",
-    "hidden by a building",
-    "hidden by a person",
-    "hidden by a frame",
-)
-"""Tags that say why a line cannot be seen."""
+HIDDEN_BY = ("cloud", "fog", "person", "mast", "frame", "building")
+"""What may hide the line in some columns; the page offers these."""
 
 
 MOST_PASSES = 1_000_000
@@ -112,7 +110,8 @@ class Label:
     """What has been noted about the photo."""
 
     skyline: Skyline | None
-    """The line, in whole rows; None where there is none yet."""
+    """The line, in whole rows; None where there is none yet. Nothing of it is visible where the
+    tags say `NO_SKYLINE`."""
 
     origin: npt.NDArray[np.uint8]
     """``(W,)`` where the row of each column is from, as an index into `ORIGINS`."""
@@ -135,6 +134,9 @@ class Label:
     pixels: str = ""
     """SHA-256 of the photo's upright pixels (`identity.pixel_digest`), which stays when metadata is
     edited; empty where it is not known."""
+
+    hidden: tuple[Hidden, ...] = ()
+    """Runs of columns that the annotator has hidden, and why."""
 
     def __post_init__(self) -> None:
         """Check that the widths agree, and freeze the array."""

@@ -29,13 +29,17 @@ Run: TypeAlias = Annotated[tuple[Origin, Annotated[int, Field(ge=1)]], Strict(Fa
 Name: TypeAlias = Annotated[str, Field(min_length=1, max_length=LONGEST_NAME + 20)]
 """A pass by name: its annotator, and its number where that is not 1."""
 
-Words: TypeAlias = Annotated[
+Comment: TypeAlias = Annotated[
     str, Field(max_length=LONGEST_COMMENT, pattern=r"^([^\x00-\x1f\x7f]*[^\x00-\x1f\x7f\s])?$")
 ]
 """A short text on one line, or nothing."""
 
 Time: TypeAlias = Annotated[int, Field(ge=0, le=2**40)]
 """Milliseconds since any moment."""
+
+
+Words: TypeAlias = Annotated[str, Field(min_length=1, max_length=80, pattern=r"^[^\x00-\x1f]+$")]
+"""A tag or a reason: one short line of text."""
 
 
 class _Operation(BaseModel):
@@ -207,10 +211,12 @@ class Hide(_Operation):
     first: Place
     last: Place
     hidden: bool = True
+    why: Words | None = None
+    """What hides it. Logs of before say it nowhere, or in a tag of the photo."""
 
     def on(self, edits: Edits) -> Edits:
         """Edits with the columns hidden or visible."""
-        return edits.hide(self.first, self.last, hidden=self.hidden)
+        return edits.hide(self.first, self.last, hidden=self.hidden, why=self.why or "")
 
 
 class Release(_Operation):
@@ -268,7 +274,7 @@ class SetTag(_Operation):
     """A tag is put on the photo, or taken off."""
 
     kind: Literal["tag"] = "tag"
-    tag: Annotated[str, Field(min_length=1, max_length=80, pattern=r"^[^\x00-\x1f]+$")]
+    tag: Words
     on_photo: Annotated[bool, Field(alias="on")] = True
 
 
@@ -277,7 +283,7 @@ class SetStatus(_Operation):
 
     kind: Literal["status"] = "status"
     status: Status
-    comment: Words = ""
+    comment: Comment = ""
     """What is to be looked at, or why it is rejected, in a sentence; mostly nothing."""
 
     by: Annotated[str, Field(max_length=LONGEST_NAME)] = ""
@@ -370,6 +376,8 @@ def spoken(change: Change) -> str:
             words = f"the line of {' and '.join(of)}"
         case Side(ground=ground):
             words = "all above is sky" if ground == "sky" else "all below is terrain"
+        case Hide(hidden=True, why=str(why)) if why:
+            words = f"hidden by {why}"
         case Hide(hidden=False):
             words = "the columns shown again"
         case _:

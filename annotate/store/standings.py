@@ -60,6 +60,24 @@ def kept(database: sqlite3.Connection, annotator: str, number: int) -> dict[int,
     }
 
 
+def finished_by_others(
+    database: sqlite3.Connection, annotator: str, number: int
+) -> dict[int, tuple[str, ...]]:
+    """Other passes that have accepted or rejected a photo, in words, by the id of the photo."""
+    rows = database.execute(
+        "SELECT photo, annotator, number FROM standings JOIN labels ON labels.id = label"  # noqa: S608
+        f" WHERE NOT (annotator = ? AND number = ?) AND {_SOUND}"
+        " AND status IN ('accepted', 'rejected')"
+        " AND labels.id NOT IN (SELECT label FROM set_aside) ORDER BY annotator, number",
+        (annotator, number),
+    )
+    found: dict[int, tuple[str, ...]] = {}
+    for photo, who, which in rows:
+        said = who if which == 1 else f"{who}, pass {which}"
+        found[photo] = (*found.get(photo, ()), said)
+    return found
+
+
 def missing(database: sqlite3.Connection) -> list[int]:
     """Labels that have a log and no standing: of an older version, imported, or not readable."""
     rows = database.execute(

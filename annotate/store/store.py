@@ -294,7 +294,8 @@ class Store:
         with self._reading() as database:
             of_pass = labels_of_pass(database, annotator, number)
             stand = standings.kept(database, annotator, number) | fresh
-        return cards_of(photos, of_pass, stand, self._unreadable)
+            finished = standings.finished_by_others(database, annotator, number)
+        return cards_of(photos, of_pass, stand, self._unreadable, finished)
 
     def passes(self) -> list[tuple[str, int]]:
         """Annotators and their passes, by name."""

@@ -8,17 +8,19 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
 from annotate.engine.edits import ORIGINS, Edits
+from annotate.engine.hidden import Hidden, hidden_too
 from annotate.formats import FormatError, Imported
 from annotate.store.database import shown
 from annotate.store.history import LogError, State, folded
 from annotate.store.identity import Photo
 from annotate.store.label_table import Log
-from annotate.store.labels import MOST_PASSES, check_annotator
+from annotate.store.labels import MOST_PASSES, NO_SKYLINE, check_annotator
 from annotate.store.lines import Line
 from skyline_viz.arrays import runs
 from skyline_viz.skyline import Skyline
@@ -63,6 +65,9 @@ def checked(
         state = folded(State(Edits(photo.height, photo.width)), rows)
         if told is not None and worked_on and state.status != told.status:
             raise LogError(f"it says {told.status}, and its log ends with {state.status}.")
+        if NO_SKYLINE in state.tags:  # the tag says so; the line is as visible as its log says
+            visible = ~state.edits.hidden_mask()
+            line = Line(Skyline(rows=line.skyline.rows, visible=visible), line.origin)
     except (LogError, ValueError) as error:
         raise FormatError(
             f"{place}: {shown(str(error)).rstrip('.')}; it is not imported."
@@ -92,16 +97,29 @@ def _drawn(one: Imported, height: int, status: str) -> tuple[list[tuple[float, s
     log: list[dict[str, Any]] = [
         {"kind": "drawn", "first": 0, "rows": inside.astype(int).tolist()},
     ]
-    log += [
-        {"kind": "hidden", "first": first, "last": last, "hidden": True}
-        for first, last in runs(~skyline.visible)
-    ]
     tags = dict.fromkeys(_plain(tag) for tag in one.tags)
+    if NO_SKYLINE not in tags or skyline.visible.any():  # else the tag says it all
+        log += [
+            {"kind": "hidden", **span._asdict(), "why": span.why or None}
+            for span in _hidden(skyline, one.hidden)
+        ]
     log += [{"kind": "tag", "tag": tag, "on": True} for tag in tags if tag]
     log.append({"kind": "status", "status": status})
     origin = np.full(skyline.width, ORIGINS.index("drawn"), np.uint8)
     now = time.time()
     return [(now, said["kind"], json.dumps(said)) for said in log], Line(skyline, origin)
+
+
+def _hidden(skyline: Skyline, told: Iterable[Hidden]) -> tuple[Hidden, ...]:
+    """Columns in which a line is not visible, with what was told to hide them."""
+    hidden = ~skyline.visible
+    spans = tuple(Hidden(*run) for run in runs(hidden))
+    for one in told:
+        inside = np.zeros_like(hidden)
+        inside[one.first : one.last + 1] = True
+        for first, last in runs(hidden & inside):
+            spans = hidden_too(spans, Hidden(first, last, _plain(one.why)))
+    return spans
 
 
 def _plain(tag: str) -> str:

@@ -274,5 +274,5 @@ class Session:
         if not same:  # solved by another version of the program: what was acknowledged holds
             rows = state.line.skyline.rows.astype(int).tolist()
             self.wire.edits = Edits(self.photo.height, self.photo.width).draw(0, rows)
-            for first, last in state.edits.hidden:
-                self.wire.hide(first, last)
+            for first, last, why in state.edits.hidden:
+                self.wire.hide(first, last, why=why)

@@ -320,7 +320,7 @@ def test_search_and_filter(page):
     items.first.click()
     page.shows("hill-2.png")
     page.page.locator("#search").fill("")
-    page.page.locator("#filter").select_option("accepted")
+    page.page.locator("#filter").select_option("is:accepted")
     assert items.count() == 0
 
 

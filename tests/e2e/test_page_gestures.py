@@ -217,18 +217,12 @@ def test_several_photos_are_chosen_tagged_accepted_and_taken_back(page):
     assert [one["status"] for one in listed] == ["to do"] * 4
 
 
-def test_reasons_are_tags(page):
-    page.keys("h")
-    page.drag((350, 120), (380, 120))
-    page.says("Columns 350 to 380 are not visible.")
-    page.page.locator("#said-choices button", has_text="hidden by fog").click()
-    page.saved()
-    assert page.document()["tags"] == ["hidden by fog"]
+def test_why_a_photo_is_rejected_is_a_tag(page):
     page.keys("q")
     page.says("is rejected")
     page.page.locator("#said-choices button", has_text="no visible skyline").click()
     page.saved()
-    assert page.document(1)["tags"] == ["hidden by fog", "no visible skyline"]
+    assert page.document(1)["tags"] == ["no visible skyline"]
     assert page.page.locator("#lines:focus").count() == 1
 
 
@@ -239,9 +233,9 @@ def test_the_tour_leads_around_and_can_be_skipped(browser, client):
     page.page.locator("#tour-begin").click()
     tour = page.page.locator("#tour")
     tour.wait_for()
-    assert "1 of 5" in tour.inner_text()
+    assert "1 of 6" in tour.inner_text()
     page.page.keyboard.press("Enter")
-    assert "2 of 5" in tour.inner_text()
+    assert "2 of 6" in tour.inner_text()
     page.page.mouse.click(*page.at(WIDTH // 2, 200))
     page.saved()
     assert page.page.locator("#lines:focus").count() == 1

@@ -110,11 +110,11 @@ def test_the_sheet_shows_each_photo_with_its_line(page):
     assert page.page.locator(".card img[src]").count() == 6
 
 
-def test_help_has_gestures_and_what_the_skyline_is(page):
+def test_help_has_gestures(page):
     page.keys("?")
     words = page.page.locator("#help-dialog").inner_text()
     for part in (
-        "What the skyline is",
+        "Guideline",
         "Mouse and fingers",
         "Drag along a ridge",
         "Right or middle",

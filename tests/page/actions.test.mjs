@@ -30,12 +30,14 @@ let sheet;
 let labelling;
 let actions;
 let said; // {text, undo}, the latest last
+let draft; // words about what is being made
 
 beforeEach(async () => {
   server = new Server();
   sheet = new Sheet();
   labelling = new Labelling();
-  actions = new Actions(labelling, sheet);
+  draft = "";
+  actions = new Actions(labelling, sheet, { says: () => draft, drop: () => { draft = ""; } });
   said = [];
   labelling.on("said", (what) => said.push(what));
   await labelling.load();
@@ -214,4 +216,38 @@ test("what was said of the next photo is said with it", async () => {
   server.documents.get(2).comment = { text: "the hut is cut off", by: "eve" };
   await actions.finish("accepted");
   assert.equal(said.at(-1).text, "hill-1.png is accepted. Of this one says eve: the hut is cut off");
+});
+
+test("Undo drops what is being made first, where it is seen", () => {
+  anchor();
+  draft = "the last corner of the guide";
+  assert.equal(actions.undoes, draft);
+  sheet.shown = true;
+  assert.equal(actions.undoes, "");
+  sheet.shown = false;
+  actions.undo();
+  assert.deepEqual([draft, actions.undoes], ["", "the anchor at column 1, row 9"]);
+});
+
+test("in the sheet a digit puts a tag on the photo of the card, and takes it off", async () => {
+  labelling.legend.tags = ["no visible skyline", "fog"];
+  sheet.shown = true;
+  sheet.card = labelling.photos[1];
+  actions.tick(2);
+  await quiet();
+  assert.deepEqual([server.documents.get(2).tags, said.at(-1).text], [["fog"], "hill-2.png has the tag “fog”."]);
+  sheet.card = labelling.photos[1];
+  actions.tick(2);
+  await quiet();
+  assert.deepEqual([server.documents.get(2).tags, said.at(-1).text], [[], "hill-2.png has the tag “fog” no more."]);
+  actions.tick(3);
+  await quiet();
+  assert.deepEqual(server.documents.get(2).tags, []);
+});
+
+test("accepting a photo without a visible skyline says that its line does not count", async () => {
+  server.documents.get(1).nothing_visible = true;
+  labelling.document.nothing_visible = true;
+  await actions.finish("accepted");
+  assert.equal(said.at(-1).text, "hill-1.png is accepted, with no visible skyline: its line does not count.");
 });

@@ -138,12 +138,23 @@ test("the line of another pass is asked for at the cursor, and taken just where 
   assert.equal(labelling.said.at(-1), "The line of bob is taken in columns 20 to 21.");
 });
 
-test("why a line cannot be seen is asked, and why it can is not", () => {
-  labelling.legend = { hidden_by: ["hidden by cloud"] };
+test("what hides columns is asked once, and is said of these columns; what shows them is not", () => {
+  labelling.legend = { hidden_by: ["cloud"] };
   let asked;
-  labelling.say = (text, bad, undo, choices) => { asked = [text, choices.map(({ words }) => words)]; };
+  let choose;
+  labelling.say = (text, bad, undo, choices) => {
+    asked = [text, choices.map(({ words }) => words)];
+    choose ??= choices[0]?.run;
+  };
   act.did({ kind: "hidden", first: 3, last: 9, hidden: true });
-  assert.deepEqual(asked, ["Columns 3 to 9 are not visible.", ["hidden by cloud"]]);
+  assert.deepEqual(asked, ["Columns 3 to 9 are not visible.", ["cloud"]]);
+  choose();
+  assert.deepEqual(labelling.applied.at(-1), { kind: "hidden", first: 3, last: 9, hidden: true, why: "cloud" });
+  assert.deepEqual(asked, ["Columns 3 to 9 are not visible: cloud.", []]);
+  const { length } = labelling.applied;
+  labelling.document = photo({ id: 2 });
+  choose(); // the columns were those of another photo
+  assert.equal(labelling.applied.length, length);
   act.did({ kind: "hidden", first: 3, last: 9, hidden: false });
   assert.deepEqual(asked, ["Columns 3 to 9 are visible.", []]);
 });

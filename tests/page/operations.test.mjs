@@ -26,6 +26,7 @@ test("every operation has its words", () => {
   for (const [kind, [how, words]] of Object.entries(EVERY)) assert.equal(described({ kind, ...how }), words);
   assert.equal(described({ kind: "forbid", points: [[7, 1]], radius: 2, allow: true }), "the stroke of the eraser at column 7");
   assert.equal(described({ kind: "hidden", first: 1, last: 2, hidden: false }), "showing columns 1 to 2");
+  assert.equal(described({ kind: "hidden", first: 1, last: 2, hidden: true, why: "fog" }), "hiding columns 1 to 2: fog");
   assert.equal(described({ kind: "tag", tag: "fog", on: false }), "taking off the tag “fog”");
 });
 

@@ -47,7 +47,7 @@ export class Server {
       known.rows[operation.column] = operation.row;
       known.status = "in progress";
     }
-    if (operation?.kind === "tag") known.tags = [...known.tags, operation.tag];
+    if (operation?.kind === "tag") known.tags = [...known.tags.filter((tag) => tag !== operation.tag), ...(operation.on ? [operation.tag] : [])];
     if (operation?.kind !== "open") known.revision++;
     Object.assign(this.list.find((one) => one.id === id), { status: known.status, tags: known.tags });
     known.can_undo = Boolean(known.steps?.length);

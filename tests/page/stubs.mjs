@@ -6,7 +6,7 @@ import { Events } from "../../annotate/static/basics/events.js";
 export function photo(how = {}) {
   return {
     id: 1, name: "hill.png", width: 400, height: 240, revision: 3, status: "to do", tags: [], blind: false,
-    rows: Array(400).fill(100), hidden: [], anchors: [], spans: [], forbidden: [], guides: [], sides: [], can_undo: false, can_redo: false,
+    rows: Array(400).fill(100), hidden: [], nothing_visible: false, anchors: [], spans: [], forbidden: [], guides: [], sides: [], can_undo: false, can_redo: false,
     undo_what: null, kept: null, origins: {}, doubtful: null, doubt: "", carried: "", comment: null, apart: [], ...how,
   };
 }

@@ -3,7 +3,7 @@
 import { Events } from "../basics/events.js";
 import { isChange } from "../basics/operations.js";
 import { counted, remark } from "../basics/words.js";
-import { showComment, showTags } from "./dialogs.js";
+import { offeredTags, showComment, showTags } from "./dialogs.js";
 
 /** @import { Labelling } from "../labelled/labelling.js" */
 /** @import { Item } from "../server/queue.js" */
@@ -11,6 +11,15 @@ import { showComment, showTags } from "./dialogs.js";
 /** @import { Document, ShownPhoto, Status } from "../types.js" */
 
 /** @typedef {{id: number, name: string, status: Status, revision: number}} Done - A status that a photo was given. */
+
+/**
+ * @typedef {object} Draft - What is being made on the photo, and is known to nobody else yet.
+ * @property {() => string} says - What Undo takes back of it first; empty where there is none.
+ * @property {() => unknown} drop - Take that back.
+ */
+
+/** @type {Draft} */
+const NO_DRAFT = { says: () => "", drop() {} };
 
 /**
  * Everything here is done to the photo that `target` names, which is one that is seen.
@@ -30,15 +39,18 @@ export class Actions extends Events {
   #trail = [];
   /** @type {Done[]} */
   #latest = []; // what was said last, and the button beside the words takes back
+  #draft;
 
   /**
    * @param {Labelling} labelling
    * @param {Sheet} sheet
+   * @param {Draft} [draft]
    */
-  constructor(labelling, sheet) {
+  constructor(labelling, sheet, draft = NO_DRAFT) {
     super();
     this.#labelling = labelling;
     this.#sheet = sheet;
+    this.#draft = draft;
     labelling.on("document", ({ fresh }) => {
       if (fresh) this.#follow([]);
     });
@@ -63,6 +75,8 @@ export class Actions extends Events {
 
   /** What Undo would take back, in words; empty where there is nothing. */
   get undoes() {
+    const drafted = this.#drafted;
+    if (drafted) return drafted;
     const last = this.#trail.at(-1);
     if (last) return `${named(last)} ${last[0].status}`;
     const photo = this.#shown();
@@ -70,6 +84,10 @@ export class Actions extends Events {
     const waiting = this.#labelling.queue.of(photo.id).filter((item) => item.operation && isChange(item)).at(-1);
     if (waiting) return waiting.says;
     return photo.can_undo ? photo.undo_what ?? "the last edit" : "";
+  }
+
+  get #drafted() {
+    return this.#sheet.shown ? "" : this.#draft.says();
   }
 
   /** Whether Redo does something. */
@@ -179,7 +197,8 @@ export class Actions extends Events {
     if (!await sent) return;
     this.#latest = [done];
     if (labelling.queue.of(photo.id).some(isChange)) return; // it does not stay so: what is said is said of that
-    await this.#goOn(goOn, photo, `${photo.name} is ${status}.`, done);
+    const nothing = status === "accepted" && photo.nothing_visible;
+    await this.#goOn(goOn, photo, `${photo.name} is ${status}${nothing ? ", with no visible skyline: its line does not count" : ""}.`, done);
   }
 
   /**
@@ -251,6 +270,7 @@ export class Actions extends Events {
 
   /** Take back the last thing that was done: here, or the status of the photo that was left just now. */
   undo() {
+    if (this.#drafted) return this.#draft.drop();
     const labelling = this.#labelling;
     const last = this.#trail.at(-1);
     const photo = this.#shown();
@@ -276,6 +296,21 @@ export class Actions extends Events {
       showTags(labelling, photo, (tag, on) =>
         labelling.send({ id, name }, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` }));
     }
+  }
+
+  /**
+   * Put a tag on the photo, or take it off.
+   *
+   * @param {number} number - Its place among those that are offered, from 1.
+   */
+  tick(number) {
+    const labelling = this.#labelling;
+    const photo = this.target();
+    const tag = photo && offeredTags(labelling, photo)[number - 1];
+    if (!photo || !tag) return;
+    const on = !photo.tags.includes(tag);
+    labelling.send({ id: photo.id, name: photo.name }, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` });
+    labelling.say(`${photo.name} has the tag “${tag}”${on ? "" : " no more"}.`);
   }
 
   /**

@@ -20,6 +20,7 @@ export class Chosen extends Events {
   #ids = new Set();
   /** @type {number | null} */
   #last = null; // from which Shift chooses
+  #pressed = false; // whether fingers choose: each tap does, until none is chosen
 
   /**
    * @param {Labelling} labelling
@@ -61,6 +62,26 @@ export class Chosen extends Events {
     this.#changed();
   }
 
+  /**
+   * A finger rests on a photo: it is chosen or left out, and from now on taps choose, too.
+   *
+   * @param {number} id
+   * @param {ShownPhoto[]} among - In their order.
+   */
+  press(id, among) {
+    this.#pressed = true;
+    this.toggle(id, false, among);
+  }
+
+  /**
+   * Whether a click means that a photo is chosen, and not opened.
+   *
+   * @param {MouseEvent} event
+   */
+  means({ ctrlKey, metaKey, shiftKey }) {
+    return ctrlKey || metaKey || shiftKey || this.#pressed;
+  }
+
   /** Choose none. */
   clear() {
     this.#ids.clear();
@@ -91,6 +112,7 @@ export class Chosen extends Events {
   }
 
   #changed() {
+    this.#pressed &&= this.#ids.size > 0;
     const focused = box("chosen").contains(document.activeElement);
     box("chosen").hidden = !this.#ids.size;
     if (focused && !this.#ids.size) this.#focus(); // not lost with the button

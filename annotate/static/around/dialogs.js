@@ -65,6 +65,16 @@ function section(title, rows) {
 }
 
 /**
+ * Tags to choose from, in an order in which their numbers stay: the usual ones, those of any photo, those of this one.
+ *
+ * @param {Pick<Labelling, "legend" | "photos">} labelling
+ * @param {{tags: readonly string[]}} photo
+ */
+export function offeredTags({ legend, photos }, photo) {
+  return [...new Set([...legend?.tags ?? [], ...photos.flatMap((one) => one.tags), ...photo.tags])];
+}
+
+/**
  * Tags of a photo as boxes to tick, and a field for one's own.
  *
  * @param {Labelling} labelling
@@ -72,9 +82,9 @@ function section(title, rows) {
  * @param {(tag: string, on: boolean) => void} set - Called with a tag, and whether it is on.
  */
 export function showTags(labelling, photo, set) {
-  const offered = [...labelling.legend?.tags ?? [], ...labelling.photos.flatMap((one) => one.tags), ...photo.tags];
+  const offered = offeredTags(labelling, photo);
   const ticked = new Set(photo.tags);
-  const draw = () => box("tags-list").replaceChildren(...[...new Set(offered)].map((tag, at) => {
+  const draw = () => box("tags-list").replaceChildren(...offered.map((tag, at) => {
     const tick = made("input", { type: "checkbox", checked: ticked.has(tag) });
     tick.addEventListener("change", () => {
       if (tick.checked) ticked.add(tag);
@@ -86,6 +96,7 @@ export function showTags(labelling, photo, set) {
   draw();
   dialog("tags-dialog").onkeydown = (event) => {
     if (around(event, "input:not([type=checkbox])") || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === "t") dialog("tags-dialog").close();
     const tick = /^[1-9]$/.test(event.key) && box("tags-list").querySelectorAll("input")[Number(event.key) - 1];
     if (tick) tick.click();
   };
@@ -95,7 +106,7 @@ export function showTags(labelling, photo, set) {
     const tag = input("own-tag").value.trim();
     if (!tag) return;
     input("own-tag").value = "";
-    offered.push(tag);
+    if (!offered.includes(tag)) offered.push(tag);
     ticked.add(tag);
     set(tag, true);
     draw();

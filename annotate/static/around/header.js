@@ -4,6 +4,7 @@ import { box, button, offer, select } from "../basics/dom.js";
 
 /** @import { Actions } from "./actions.js" */
 /** @import { Labelling } from "../labelled/labelling.js" */
+/** @import { Selection } from "../labelled/selection.js" */
 /** @import { Sheet } from "./sheet.js" */
 /** @import { Status } from "../types.js" */
 
@@ -14,11 +15,13 @@ export class Header {
   #sheet;
 
   /**
-   * @param {Labelling} labelling
-   * @param {Actions} actions
-   * @param {Sheet} sheet
+   * @param {object} parts
+   * @param {Labelling} parts.labelling
+   * @param {Actions} parts.actions
+   * @param {Sheet} parts.sheet
+   * @param {Selection} parts.selection
    */
-  constructor(labelling, actions, sheet) {
+  constructor({ labelling, actions, sheet, selection }) {
     this.#labelling = labelling;
     this.#actions = actions;
     this.#sheet = sheet;
@@ -32,6 +35,12 @@ export class Header {
     labelling.queue.on("change", show);
     actions.on("change", show);
     sheet.on("card", show);
+    let corners = 0;
+    selection.on("change", () => { // which most often means that only the mouse has moved
+      if (corners === selection.now.corners.length) return;
+      corners = selection.now.corners.length;
+      show();
+    });
     select("status").addEventListener("change", () => {
       actions.setStatus(/** @type {Status} */ (select("status").value));
       select("status").blur();

@@ -1,6 +1,8 @@
 /** The list of photos: only what is in sight has elements and pictures. */
 
-import { around, box, find, input, made, offer, select } from "../basics/dom.js";
+import { around, box, find, input, made, select } from "../basics/dom.js";
+import { filters, matches, offerFilters } from "../basics/filters.js";
+import { longPress } from "../basics/long_press.js";
 import { remark, spoken, sure } from "../basics/words.js";
 import { Thumbnails } from "../server/thumbnails.js";
 
@@ -9,7 +11,6 @@ import { Thumbnails } from "../server/thumbnails.js";
 /** @import { ShownPhoto } from "../types.js" */
 
 const HEIGHT = 60; // of an item, in CSS pixels
-const TAG = "tag:"; // before a tag among the filters
 
 /** List, search, filter and progress. */
 export class PhotoList {
@@ -38,9 +39,10 @@ export class PhotoList {
       const item = around(event, ".item");
       if (!item) return;
       const photo = Number(item.dataset.photo);
-      if (event.ctrlKey || event.metaKey || event.shiftKey) chosen.toggle(photo, event.shiftKey, this.#found);
+      if (chosen.means(event)) chosen.toggle(photo, event.shiftKey, this.#found);
       else choose(photo, true);
     });
+    longPress(this.#list, ".item", (item) => chosen.press(Number(item.dataset.photo), this.#found));
     this.#list.addEventListener("keydown", (event) => {
       const { document: shown } = this.#labelling;
       if (event.key === " " && shown && !event.defaultPrevented) {
@@ -55,9 +57,8 @@ export class PhotoList {
     });
     input("search").addEventListener("input", () => this.#search());
     select("filter").addEventListener("change", () => this.#search());
-    labelling.on("legend", ({ statuses }) => offer(select("filter"), statuses));
     labelling.on("list", () => {
-      this.#offerTags();
+      offerFilters(select("filter"), filters(labelling.legend?.statuses ?? [], labelling.photos));
       this.#search();
     });
     labelling.on("document", ({ fresh }) => {
@@ -75,21 +76,10 @@ export class PhotoList {
     const words = input("search").value.trim().toLowerCase();
     const wanted = select("filter").value;
     this.#found = this.#labelling.photos.filter((photo) =>
-      (!wanted || photo.status === wanted || photo.tags.includes(wanted.slice(TAG.length)) && wanted.startsWith(TAG))
-      && photo.name.toLowerCase().includes(words));
+      matches(photo, wanted) && photo.name.toLowerCase().includes(words));
     this.#inner.style.height = `${this.#found.length * HEIGHT}px`;
     this.#showProgress();
     this.#draw();
-  }
-
-  /** Offer the tags that photos have beside the statuses. */
-  #offerTags() {
-    const filter = select("filter");
-    const tags = [...new Set(this.#labelling.photos.flatMap((photo) => photo.tags))].toSorted();
-    const known = [...filter.options].filter(({ value }) => value.startsWith(TAG));
-    for (const option of known) if (!tags.includes(option.value.slice(TAG.length)) && !option.selected) option.remove();
-    const there = new Set(known.map(({ value }) => value));
-    for (const tag of tags) if (!there.has(TAG + tag)) filter.append(new Option(`tag: ${tag}`, TAG + tag));
   }
 
   #showProgress() {

@@ -1,22 +1,25 @@
 /** The sheet: straightened strips of many photos, worked through by key. */
 
-import { around, box, button, made, offer, select } from "../basics/dom.js";
+import { around, box, busy, button, made, select } from "../basics/dom.js";
 import { Events } from "../basics/events.js";
-import { ApiError, get } from "../server/api.js";
+import { filters, matches, offerFilters } from "../basics/filters.js";
+import { within } from "../basics/geometry.js";
+import { longPress } from "../basics/long_press.js";
+import { ApiError } from "../server/api.js";
 import { cardFor, labelCard } from "./cards.js";
 
 /** @import { Chosen } from "./chosen.js" */
 /** @import { Labelling } from "../labelled/labelling.js" */
 /** @import { ShownPhoto } from "../types.js" */
 
-const ALL = "all";
+const PAGE = 24; // cards
 
 /**
  * A page of cards over the rest of the page. One card is the current one, and stays it while a button
  * elsewhere has the focus. Events: `card` (another one, or its photo changed), `page` (other cards),
- * `finish` (the current photo is given a status).
+ * `finish` (the current photo is given a status), `tick` (it is given a tag, or is not, by its number).
  *
- * @extends {Events<{card: undefined, page: undefined, finish: "accepted" | "rejected"}>}
+ * @extends {Events<{card: undefined, page: undefined, finish: "accepted" | "rejected", tick: number}>}
  */
 export class Sheet extends Events {
   #labelling;
@@ -44,17 +47,27 @@ export class Sheet extends Events {
     chosen.on("change", () => this.#frame());
     this.#cards.addEventListener("click", (event) => {
       const card = around(event, ".card");
-      if (card && (event.ctrlKey || event.metaKey || event.shiftKey)) this.#toggle(Number(card.dataset.at), event.shiftKey);
+      if (card && chosen.means(event)) this.#toggle(Number(card.dataset.at), event.shiftKey);
+    });
+    longPress(this.#cards, ".card", (card) => {
+      const photo = this.#photos[Number(card.dataset.at)];
+      if (photo) chosen.press(photo.id, this.#photos);
     });
     this.#focus = focus;
-    select("sheet-status").addEventListener("change", () => this.#show(0));
+    select("sheet-filter").addEventListener("change", () => this.#show(0));
     button("sheet-previous").addEventListener("click", () => this.#show(this.#page - 1));
     button("sheet-next").addEventListener("click", () => this.#show(this.#page + 1));
     button("sheet-close").addEventListener("click", () => this.hide());
     document.addEventListener("keydown", (event) => this.shown && this.#key(event));
     this.#cards.addEventListener("focusin", (event) => this.#choose(around(event, ".card")));
-    labelling.on("legend", ({ statuses }) => offer(select("sheet-status"), [...statuses, ALL]));
-    labelling.on("list", () => this.#renew());
+    labelling.on("list", () => {
+      offerFilters(select("sheet-filter"), filters(labelling.legend?.statuses ?? [], labelling.photos));
+      this.#renew();
+    });
+    labelling.on("legend", () => {
+      offerFilters(select("sheet-filter"), filters(labelling.legend?.statuses ?? [], []));
+      select("sheet-filter").value = "is:to do"; // all others are one choice away
+    });
   }
 
   /** Whether it is shown. */
@@ -113,19 +126,20 @@ export class Sheet extends Events {
   /** @param {number} page */
   async #show(page) {
     const turn = ++this.#turn;
-    const status = select("sheet-status").value;
     this.#put([], "Reading the strips…");
-    let found;
     try {
-      found = await get(`api/sheet?status=${encodeURIComponent(status)}&page=${Math.max(page, 0)}`);
+      await this.#labelling.load(); // others may have been at work
     } catch (error) {
       if (turn === this.#turn) this.#put([], ApiError.of(error).message);
       return;
     }
     if (turn !== this.#turn) return;
-    this.#pages = found.pages;
-    this.#page = Math.min(Math.max(page, 0), found.pages - 1);
-    this.#put(found.photos, status === ALL ? "There is no photo." : `No photo is ${status}.`);
+    const { value, selectedOptions: [chosen] } = select("sheet-filter");
+    const found = this.#labelling.photos.filter((photo) => matches(photo, value));
+    this.#pages = Math.max(Math.ceil(found.length / PAGE), 1);
+    this.#page = within(page, 0, this.#pages - 1);
+    const none = value ? `No photo matches “${chosen.text}”.` : "There is no photo.";
+    this.#put(found.slice(this.#page * PAGE, (this.#page + 1) * PAGE), none);
     (this.#card(0) ?? button("sheet-close")).focus();
   }
 
@@ -196,7 +210,7 @@ export class Sheet extends Events {
   #key(event) {
     const { key, ctrlKey, metaKey, altKey } = event;
     const elsewhere = key !== "Escape" && around(event, "select, input, [role=listbox]");
-    if (ctrlKey || metaKey || altKey || elsewhere || document.querySelector("dialog[open]")) return;
+    if (ctrlKey || metaKey || altKey || elsewhere || busy()) return;
     if (this.#keyOfSheet(key) || this.#keyOfCards(key, event)) event.preventDefault();
   }
 
@@ -204,6 +218,7 @@ export class Sheet extends Events {
   #keyOfSheet(key) {
     if (key === "a" || key === "d") this.tell("finish", key === "a" ? "accepted" : "rejected");
     else if (key === "x") this.#toggle(this.#at, false);
+    else if (/^[1-9]$/.test(key)) this.tell("tick", Number(key));
     else if (key === "Escape" || key === "w") this.hide();
     else return false;
     return true;

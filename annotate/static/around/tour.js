@@ -11,6 +11,7 @@ const STOPS = /** @type {const} */ ([
   ["tools", "Another ridge?", "Drag along the right ridge, roughly: the line snaps to it. Other tools hide what cannot be seen, or keep the line away."],
   ["others", "Or choose one", "Draws up to four lines along other ridges, with numbers. A number takes one, Escape leaves."],
   ["strip", "Is it right?", "The photo along the line, pulled straight: an error is a bump. The bars below are tall where the line is uncertain; N goes there."],
+  ["guideline", "What counts?", "Trees, huts, fog, people, frames: what is skyline here, and what hides it. Shift+G shows it again."],
   ["accept", "Done", "Space accepts the line, and the next photo comes. Undo takes that back, too."],
 ]);
 

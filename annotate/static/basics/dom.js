@@ -65,6 +65,9 @@ export function icon(id) {
   return picture;
 }
 
+/** Whether a dialog or the tour has the keys, and those of the page rest. */
+export const busy = () => document.querySelector("dialog[open], #tour:not([hidden])") !== null;
+
 /**
  * The element of a kind in which something happened; null where there is none.
  *

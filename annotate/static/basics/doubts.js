@@ -1,5 +1,7 @@
 /** Where the line is uncertain: columns put together into spans that are worth a look. */
 
+/** @import { Hidden } from "../types.js" */
+
 /** @typedef {{first: number, last: number, column: number, margin: number}} Doubt - `column` is the least certain one. */
 
 const DOUBTFUL = 0.5; // a margin under which another line is nearly as good
@@ -10,7 +12,7 @@ const RIM = 1 / 200; // of the photo's width: what is narrower and touches the r
  * Uncertain spans from left to right. Hidden columns are none, and neither are slivers at the photo's rim.
  *
  * @param {(number | null)[]} margins - Of each column; null where its row is fixed.
- * @param {[number, number][]} [hidden] - First and last column of spans in which the line cannot be seen.
+ * @param {readonly Hidden[]} [hidden] - Spans in which the line cannot be seen.
  * @returns {Doubt[]}
  */
 export function doubts(margins, hidden = []) {

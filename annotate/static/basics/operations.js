@@ -1,5 +1,7 @@
 /** Operations in words, and what kind of thing each of them is. */
 
+import { notVisible } from "./hidden.js";
+
 /** @import { Operation } from "../types.js" */
 
 /**
@@ -17,7 +19,7 @@ const WORDS = {
   side: (how) => `“all ${how.ground === "sky" ? "above is sky" : "below is terrain"}” from column ${how.points[0][0]}`,
   straight: (how) => `the straight line from column ${how.column} to ${how.to_column}`,
   drawn: (how) => `the drawn line from column ${how.first} to ${how.first + how.rows.length - 1}`,
-  hidden: (how) => `${how.hidden ? "hiding" : "showing"} columns ${how.first} to ${how.last}`,
+  hidden: (how) => `${how.hidden ? "hiding" : "showing"} columns ${how.first} to ${how.last}${how.why ? `: ${how.why}` : ""}`,
   release: (how) => `dropping what was asked for in columns ${how.first} to ${how.last}`,
   taken: (how) => `taking the line of ${how.of.join(" and ")} in columns ${how.first} to ${how.first + how.rows.length - 1}`,
   tag: (how) => `${how.on ? "the tag" : "taking off the tag"} “${how.tag}”`,
@@ -42,7 +44,7 @@ const DONE = {
   side: (how) => (how.ground === "sky" ? "All above is sky there." : "All below is terrain there."),
   straight: (how) => `The line is straight from column ${Math.min(how.column, how.to_column)} to ${Math.max(how.column, how.to_column)}.`,
   drawn: (how) => `The line lies as drawn from column ${how.first} to ${how.first + how.rows.length - 1}.`,
-  hidden: (how) => `Columns ${how.first} to ${how.last} are ${how.hidden ? "not visible" : "visible"}.`,
+  hidden: (how) => `Columns ${how.first} to ${how.last} are ${how.hidden ? notVisible(how.why) : "visible"}.`,
   release: (how) => `What was asked for in columns ${how.first} to ${how.last} is dropped.`,
   taken: (how) => `The line of ${how.of.join(" and ")} is taken in columns ${how.first} to ${how.first + how.rows.length - 1}.`,
 };

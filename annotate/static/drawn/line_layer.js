@@ -2,6 +2,7 @@
 
 import { ANCHOR, BRUSHES, disc, follow, penOf, ratio, softHalo, withNextFrame } from "../basics/drawing.js";
 import { brushed } from "../basics/geometry.js";
+import { unseen } from "../basics/hidden.js";
 import { corridor } from "./corridor.js";
 import { hatched } from "./hatching.js";
 import { magnify } from "./magnifier.js";
@@ -290,11 +291,12 @@ export class LineLayer {
  * @param {boolean} stairs
  * @returns {Paths}
  */
-function linePaths({ rows, hidden }, stairs) {
+function linePaths(document, stairs) {
+  const { rows } = document;
   const paths = { stairs, visible: new Path2D(), hidden: new Path2D() };
   if (!rows) return paths;
   let from = 0;
-  for (const [first, last] of hidden) {
+  for (const [first, last] of unseen(document)) {
     if (first > from) paths.visible.addPath(linePath(from, rows.slice(from, first), stairs));
     paths.hidden.addPath(linePath(first, rows.slice(first, last + 1), stairs));
     from = last + 1;

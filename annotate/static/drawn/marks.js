@@ -1,6 +1,7 @@
 /** Marks over the photo in screen pixels: numbers, hidden spans, the ring of the brush, corners of a guide. */
 
 import { OTHERS, disc, softHalo } from "../basics/drawing.js";
+import { notVisible, unseen } from "../basics/hidden.js";
 
 /** @import { Point } from "../basics/geometry.js" */
 /** @import { Colours, Document } from "../types.js" */
@@ -83,17 +84,17 @@ export function apart(rows, current) {
 }
 
 /**
- * Columns in which the line cannot be seen: a veil over the photo, with words at its top.
+ * Columns in which the line cannot be seen: a veil over the photo, with what hides it at its top.
  *
  * @param {CanvasRenderingContext2D} pen
  * @param {Document} document
  * @param {View} view
  * @param {Colours} colours
  */
-export function veil(pen, { hidden, height }, view, colours) {
-  for (const [first, last] of hidden) {
+export function veil(pen, document, view, colours) {
+  for (const [first, last, why] of unseen(document)) {
     const [left, top] = view.toScreen(first, 0);
-    const [right, bottom] = view.toScreen(last + 1, height);
+    const [right, bottom] = view.toScreen(last + 1, document.height);
     pen.fillStyle = "rgb(0 0 0 / 28%)";
     pen.fillRect(left, top, right - left, bottom - top);
     Object.assign(pen, { strokeStyle: softHalo(colours), lineWidth: 1 });
@@ -103,9 +104,10 @@ export function veil(pen, { hidden, height }, view, colours) {
     pen.beginPath();
     pen.rect(left, top, right - left, bottom - top);
     pen.clip();
-    const words = right - left > 70 ? "not visible" : "…";
     pen.font = "12px system-ui, sans-serif";
     const from = Math.max(left, 0) + 5;
+    const fits = (/** @type {string} */ one) => pen.measureText(one).width < right - from - 6;
+    const words = [notVisible(why), why, "not visible"].find((one) => one && fits(one)) ?? "…"; // the most that there is room for
     const across = pen.measureText(words).width;
     pen.fillStyle = "rgb(0 0 0 / 65%)";
     pen.fillRect(from - 3, Math.max(top, 0) + 3, across + 6, 17);

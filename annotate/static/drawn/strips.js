@@ -3,6 +3,7 @@
 import { canvas } from "../basics/dom.js";
 import { disc, fit, penOf, ratio, withNextFrame } from "../basics/drawing.js";
 import { uncertainty, within } from "../basics/geometry.js";
+import { unseen } from "../basics/hidden.js";
 import { picture } from "../server/api.js";
 
 /** @import { Labelling } from "../labelled/labelling.js" */
@@ -116,6 +117,7 @@ export class Strips {
       pen.drawImage(this.#image, left, 0, right - left, height);
     }
     this.#paintHidden(pen, document);
+    this.#paintReasons(pen, document, legend);
     if (!document.rows) return;
     const row = height * legend.band / (2 * legend.band + 1); // where the line lies
     for (const x of [left, right]) {
@@ -176,11 +178,28 @@ export class Strips {
    * @param {CanvasRenderingContext2D} pen
    * @param {Document} document
    */
-  #paintHidden(pen, { hidden }) {
-    pen.fillStyle = "rgb(0 0 0 / 35%)";
-    for (const [first, last] of hidden) {
+  #paintHidden(pen, document) {
+    for (const [first, last] of unseen(document)) {
       const [left, right] = this.#columns(first, last + 1);
+      pen.fillStyle = "rgb(0 0 0 / 35%)";
       pen.fillRect(left, 0, right - left, pen.canvas.height);
+    }
+  }
+
+  /**
+   * What hides the columns of each band, where there is room for it.
+   *
+   * @param {CanvasRenderingContext2D} pen
+   * @param {Document} document
+   * @param {Legend} legend
+   */
+  #paintReasons(pen, document, { colours }) {
+    pen.font = `${11 * ratio()}px system-ui, sans-serif`;
+    pen.fillStyle = colours.anchor;
+    for (const [first, last, why] of unseen(document)) {
+      const [left, right] = this.#columns(first, last + 1);
+      const from = Math.max(left, 0) + 4 * ratio();
+      if (from + pen.measureText(why).width < right) pen.fillText(why, from, pen.canvas.height - 6 * ratio());
     }
   }
 

@@ -2,6 +2,7 @@
 
 import { ANCHOR, BRUSHES, follow, softHalo } from "../basics/drawing.js";
 import { brushed } from "../basics/geometry.js";
+import { notVisible } from "../basics/hidden.js";
 import { isChange } from "../basics/operations.js";
 
 /** @import { Point } from "../basics/geometry.js" */
@@ -36,7 +37,7 @@ const SKETCHES = {
   guide: ({ points }, found) => found.paths.push(points),
   side: ({ points }, found) => found.paths.push(points),
   drawn: ({ first, rows }, found) => found.paths.push(rows.map((row, at) => [first + at, row])),
-  hidden: ({ first, last, hidden }, found) => found.bands.push({ first, last, words: hidden ? "not visible" : "visible" }),
+  hidden: ({ first, last, hidden, why }, found) => found.bands.push({ first, last, words: hidden ? notVisible(why) : "visible" }),
   release: ({ first, last }, found) => found.bands.push({ first, last, words: "dropped" }),
   forbid: ({ points, radius, allow }, found) => found.strokes.push({ points, radius, allow }),
 };

@@ -2,6 +2,7 @@
 
 import { doubts, nextDoubt } from "../basics/doubts.js";
 import { nearest } from "../basics/geometry.js";
+import { unseen } from "../basics/hidden.js";
 import { done } from "../basics/operations.js";
 import { guideActions } from "./guides.js";
 import { otherLines } from "./other_lines.js";
@@ -67,9 +68,14 @@ export function lineActions({ labelling, view, selection, previewer, brush, focu
      * @param {Operation} operation
      */
     did(operation) {
+      const { id } = shown();
       if (!labelling.apply(operation)) return;
-      const why = operation.kind === "hidden" && operation.hidden ? labelling.reasons(shown(), labelling.legend?.hidden_by ?? []) : [];
-      labelling.say(done(operation), false, null, why);
+      const hides = operation.kind === "hidden" && operation.hidden && !operation.why ? operation : null;
+      const why = (hides && labelling.legend?.hidden_by) ?? [];
+      labelling.say(done(operation), false, null, why.map((words) => ({
+        words,
+        run: () => hides && labelling.document?.id === id && act.did({ ...hides, why: words }),
+      })));
     },
     ...guides,
     ...others,
@@ -107,7 +113,7 @@ export function lineActions({ labelling, view, selection, previewer, brush, focu
       if (apart.length) return act.differing(apart, step);
       const { margins } = labelling;
       if (!margins) return labelling.say(shown().blind ? "The photo is labelled blind, so nothing is known to be uncertain." : "How sure the line is, is being measured.");
-      const spans = doubts(margins.margins, shown().hidden);
+      const spans = doubts(margins.margins, unseen(shown()));
       const at = nextDoubt(spans, selection.now.cursor?.column, step);
       if (at < 0) return labelling.say("No span is uncertain.");
       const { first, last, column, margin } = spans[at];

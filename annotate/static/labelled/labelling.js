@@ -12,7 +12,7 @@ const OPENING = 300_000; // milliseconds that the first look at a large photo ma
 
 /** @typedef {{document: Document, bitmap: ImageBitmap}} Ready */
 /** @typedef {() => void} Undo - Takes back what was said. */
-/** @typedef {{words: string, run: () => void}} Choice - What can be added to what was said. */
+/** @typedef {{words: string, run: () => unknown}} Choice - What can be added to what was said. */
 
 /**
  * @typedef {object} Told
@@ -221,10 +221,10 @@ export class Labelling extends Events {
   }
 
   /** @param {Document} found */
-  #relist({ id, status, tags }) {
+  #relist({ id, status, tags, nothing_visible }) {
     const listed = this.photos.find((photo) => photo.id === id);
     if (!listed || (listed.status === status && String(listed.tags) === String(tags))) return;
-    Object.assign(listed, { status, tags });
+    Object.assign(listed, { status, tags, nothing_visible });
     this.tell("list");
     this.load().catch(() => {}); // progress and times; they come with the next one, too
   }

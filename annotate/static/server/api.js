@@ -5,7 +5,7 @@
  * never comes, breaks off while it is read, is no JSON, or is somebody else's is no answer.
  */
 
-/** @import { Alternatives, Apply, Document, Learning, Legend, Explained, Margins, Part, PhotoList, Pixel, Rough, Sheet, Step } from "../types.js" */
+/** @import { Alternatives, Apply, Document, Learning, Legend, Explained, Margins, OwnGuideline, Part, PhotoList, Pixel, Rough, Step } from "../types.js" */
 
 const PATIENCE = 60_000; // milliseconds within which a whole answer must be there
 const TOKEN = "X-Skyline-Token";
@@ -77,7 +77,7 @@ export function signIn({ location, history, storage }) {
  * @template {string} Path
  * @typedef {Path extends "api/legend" ? Legend
  *   : Path extends "api/photos" ? PhotoList
- *   : Path extends `api/sheet?${string}` ? Sheet
+ *   : Path extends "api/guideline" ? OwnGuideline
  *   : Path extends "api/learn" ? Learning
  *   : Path extends `api/photos/${number}/margins` ? Margins
  *   : Path extends `api/photos/${number}/alternatives?column=${number}` ? Alternatives

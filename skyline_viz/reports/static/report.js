@@ -73,14 +73,15 @@ class Page {
   fits(card) {
     const cause = this.said("cause");
     const tag = this.said("tag");
-    return (
-      (!cause || card.titles.includes(cause)) &&
-      (!tag || card.tags.includes(tag)) &&
-      card.name.toLowerCase().includes(this.said("name").trim().toLowerCase()) &&
-      (card.error ?? -1) >= (numbered(this.said("least")) ?? -1) &&
-      card.confidence <= (numbered(this.said("confidence")) ?? Infinity) &&
-      card.margin <= (numbered(this.said("margin")) ?? Infinity)
-    );
+    const most = (/** @type {string} */ id) => numbered(this.said(id)) ?? Infinity;
+    return [
+      !cause || card.titles.includes(cause),
+      !tag || card.tags.includes(tag),
+      card.name.toLowerCase().includes(this.said("name").trim().toLowerCase()),
+      (card.error ?? -1) >= (numbered(this.said("least")) ?? -1),
+      card.confidence <= most("confidence"),
+      card.margin <= most("margin"),
+    ].every(Boolean);
   }
 
   /** Show the cards that are asked for, in the order that is. */

@@ -65,8 +65,8 @@ def test_edits_that_differ_by_one_anchor_are_known():
 
 def test_what_is_hidden_is_a_run_of_columns_and_is_shown_again():
     edits = Edits(48, 70).hide(10, 20).hide(21, 25).hide(40, 30)
-    assert edits.hidden == ((10, 25), (30, 40))
-    assert edits.hide(15, 35, hidden=False).hidden == ((10, 14), (36, 40))
+    assert edits.hidden == ((10, 25, ""), (30, 40, ""))
+    assert edits.hide(15, 35, hidden=False).hidden == ((10, 14, ""), (36, 40, ""))
     assert edits.release(0, 69).hidden == ()
 
 
@@ -77,7 +77,7 @@ def test_rows_of_other_passes_are_spans_of_their_origins():
         ("solved", 10, 13),
         ("drawn", 14, 19),
     ]
-    assert taken.hidden == ((0, 9), (18, 20))
+    assert taken.hidden == ((0, 9, ""), (18, 20, ""))
     assert not taken.anchors
     opened = taken.anchor(11, 5)
     assert dict(opened.anchors) == {11: 5}
@@ -98,3 +98,11 @@ def test_origins_of_taken_rows_stay_when_the_line_is_solved_again():
 def test_rows_without_their_origins_make_no_sense(origins, hidden):
     with pytest.raises(EditError, match="what is taken over"):
         Edits(48, 70).take(10, [7] * 4, origins, hidden)
+
+
+def test_what_hides_columns_stays_with_them():
+    edits = Edits(48, 70).hide(10, 25).hide(20, 40, why="fog")
+    assert edits.hidden == ((10, 19, ""), (20, 40, "fog"))
+    assert edits.release(30, 35).hidden == ((10, 19, ""), (20, 29, "fog"), (36, 40, "fog"))
+    assert edits.hide(10, 40, why="cloud").hidden == ((10, 40, "cloud"),)
+    assert edits.hidden_mask().sum() == 31

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 import annotate.formats as formats
+from annotate.engine.hidden import Hidden
 from annotate.formats import FORMATS, FormatError, export_labels, import_labels
 from annotate.store.labels import TAGS, Label
 from testing.examples import examples
@@ -282,3 +284,32 @@ def test_unknown_formats_and_sources(tmp_path, photos):
     (tmp_path / "empty").mkdir()
     with pytest.raises(FormatError, match="no known format"):
         import_labels(tmp_path / "empty", photos, ["a.png"])
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_a_photo_without_a_visible_skyline_leaves_no_line(tmp_path, photos, kind):
+    put(photos, "fog.png", seed=5)
+    blank = label(photos, "fog.png", visible=np.zeros(WIDTH, bool), tags=["no visible skyline"])
+    export = export_labels([label(photos, "a.png"), blank], photos, tmp_path / "out", kind)
+    if kind in ("mask", "ch1", "coco", "painted"):
+        assert export.written == 1
+        (said,) = export.notes
+        assert said == f"fog.png has no visible skyline, which {kind} cannot say, and is left out."
+        with pytest.raises(
+            FormatError, match=r"nothing to export\. fog\.png has no visible skyline"
+        ):
+            export_labels([blank], photos, tmp_path / "alone", kind)
+    else:
+        assert (export.written, export.notes) == (2, ())
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_what_a_format_cannot_say_of_hidden_columns_is_said(tmp_path, photos, kind):
+    visible = np.arange(WIDTH) >= 6
+    one = replace(label(photos, "a.png", visible=visible), hidden=(Hidden(0, 5, "fog"),))
+    notes = export_labels([one], photos, tmp_path / "out", kind).notes
+    loses = {"mask": "which", "ch1": "which", "coco": "which", "csv": "", "json": ""}.get(
+        kind, "why"
+    )
+    wanted = (f"a.png: {kind} cannot say {loses} columns are not visible.",) if loses else ()
+    assert notes == wanted

@@ -1,8 +1,11 @@
 """``labels.json``: labels with everything that is known about them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from annotate.engine.hidden import Hidden
 from annotate.store.labels import TAGS
 from testing.exports import label, put, there_and_back
 
@@ -14,7 +17,8 @@ def photos(tmp_path):
 
 
 def test_json_carries_everything(tmp_path, photos):
-    given_label = label(photos, "a.png", tags=TAGS)
+    hidden = (Hidden(0, 2, "fog"), Hidden(3, 5))
+    given_label = replace(label(photos, "a.png", tags=TAGS), hidden=hidden)
     _, (found,) = there_and_back(tmp_path, photos, "json", [given_label])
     before, after = dict(vars(given_label)), dict(vars(found.label))
     np.testing.assert_array_equal(before.pop("origin"), after.pop("origin"))

@@ -21,7 +21,7 @@ ROUTES = [
     ("GET", "/api/photos/1/stages/edges"),
     ("GET", "/api/photos/1/strip"),
     ("GET", "/api/photos/1/alternatives"),
-    ("GET", "/api/sheet"),
+    ("GET", "/api/guideline"),
     ("GET", "/api/learn"),
     ("GET", "/api/exports/csv"),
     ("GET", "/api/openapi.json"),

@@ -37,3 +37,11 @@ def test_a_checkpoint_with_more_in_it_is_of_another_version():
     for changed in (text.replace('"version":1', '"version":2'), text[:-1] + ',"more":1}'):
         assert changed != text
         assert unpacked(zlib.compress(changed.encode()), 7, EMPTY.edits) is None
+
+
+def test_a_checkpoint_of_before_reasons_counts():
+    state = folded(EMPTY, [(1, 1.0, "hidden", '{"kind": "hidden", "first": 3, "last": 9}')])
+    text = zlib.decompress(packed(state, 7)).decode()
+    old = text.replace('"hidden":[[3,9,""]]', '"hidden":[[3,9]]')
+    assert old != text
+    assert unpacked(zlib.compress(old.encode()), 7, EMPTY.edits) == state

@@ -15,6 +15,7 @@ from annotate.store.labels import Comment
 from annotate.store.operations import (
     LOGGED,
     Consensus,
+    Hide,
     Redo,
     SetAnchor,
     SetStatus,
@@ -216,6 +217,7 @@ def test_a_checkpoint_of_another_version_counts_as_none(monkeypatch):
         ({"kind": "drawn", "first": 1, "rows": [2]}, "the drawn span"),
         ({"kind": "hidden", "first": 1, "last": 2}, "the hidden columns"),
         ({"kind": "hidden", "first": 1, "last": 2, "hidden": False}, "the columns shown again"),
+        ({"kind": "hidden", "first": 1, "last": 2, "why": "fog"}, "hidden by fog"),
         ({"kind": "release", "first": 1, "last": 2}, "the release of the columns"),
         (
             {"kind": "carried", "points": [[1, 2]], "radius": 3, "name": "a.png"},
@@ -294,3 +296,24 @@ def test_a_consensus_is_one_of_the_whole_photo(rows, apart):
     told = Consensus(first=0, rows=[5] * rows, origins=origins, of=["ann"], apart=apart)
     with pytest.raises(EditError, match="of all columns"):
         after(told)
+
+
+def test_a_log_of_before_reasons_is_read_as_it_was_meant():
+    old = [
+        (1, 1.0, "hidden", '{"first": 3, "last": 9, "hidden": true, "kind": "hidden"}'),
+        (2, 2.0, "tag", '{"tag": "hidden by fog", "on": true, "kind": "tag"}'),
+    ]
+    state = folded(EMPTY, old)
+    assert state.edits.hidden == ((3, 9, ""),)
+    assert state.tags == ("hidden by fog",)
+
+
+def test_undo_takes_a_reason_back_before_what_it_explains():
+    state = folded(EMPTY, [])
+    for number, why in enumerate((None, "fog"), 1):
+        state = state.after(Hide(first=3, last=9, why=why), number, number)
+    assert state.edits.hidden == ((3, 9, "fog"),)
+    state = state.after(Undo(status=True), 3.0, 3)
+    assert state.edits.hidden == ((3, 9, ""),)
+    assert state.after(Redo(status=True), 4.0, 4).edits.hidden == ((3, 9, "fog"),)
+    assert state.after(Undo(status=True), 4.0, 4).edits.hidden == ()

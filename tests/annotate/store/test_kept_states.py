@@ -376,3 +376,12 @@ def test_an_open_photo_never_goes_on_from_what_it_has_not_seen(tmp_path, operati
     kept = [row[0] for row in rows(bench.store, "kind")]
     assert kept == (["anchor", "open"] if operation["kind"] == "open" else ["anchor"])
     bench.close()
+
+
+def test_a_request_of_an_older_program_is_known_although_fields_have_come_since(store):
+    label = store.begin(1, "ann", 1)
+    before = {"first": 3, "last": 9, "hidden": True}
+    kept = store.append(label, -1, "hidden", before, LINE, "a")
+    assert store.append(label, -1, "hidden", {**before, "why": None}, LINE, "a") == kept
+    with pytest.raises(StaleError, match="belongs to another one"):
+        store.append(label, -1, "hidden", {**before, "why": "fog"}, LINE, "a")

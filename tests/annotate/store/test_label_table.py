@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from annotate.store.label_table import Log, begin, insert, labels_of, require_fit, whole_label
+from annotate.store.label_table import (
+    Log,
+    begin,
+    insert,
+    labels_of,
+    require_fit,
+    seen,
+    whole_label,
+)
 from annotate.store.lines import Line, LineError
 from skyline_viz.skyline import Skyline
 
@@ -70,3 +78,11 @@ def test_a_line_of_another_width_is_refused():
     require_fit(LINE, 70)
     with pytest.raises(LineError, match="its line has 70 columns, its photo 69"):
         require_fit(LINE, 69)
+
+
+def test_nothing_of_a_line_counts_where_a_tag_says_that_no_skyline_is_visible():
+    line = Skyline(rows=[3, 4], visible=np.array([True, False]))
+    assert seen(line, ("fog",)) is line
+    hidden = seen(line, ("fog", "no visible skyline"))
+    assert not hidden.visible.any()
+    assert hidden.rows.tolist() == [3, 4]

@@ -28,7 +28,7 @@ DONE = {
         EDITS.straight(1, 2, 9, 8),
     ),
     "drawn": ({"first": 7, "rows": [1, 2]}, EDITS.draw(7, [1, 2])),
-    "hidden": ({"first": 7, "last": 9}, EDITS.hide(7, 9)),
+    "hidden": ({"first": 7, "last": 9, "why": "fog"}, EDITS.hide(7, 9, why="fog")),
     "carried": (
         {"points": [[1, 2], [9, 4]], "radius": 3, "name": "hill-0.png"},
         EDITS.guide([(1, 2), (9, 4)], 3),
@@ -56,6 +56,9 @@ def test_each_does_what_it_says(kind):
         {"kind": "anchor", "column": 100_001, "row": 4},
         {"kind": "anchor", "column": 3, "row": 4, "more": 1},
         {"kind": "forbid", "points": [], "radius": 2},
+        {"kind": "hidden", "first": 7, "last": 9, "why": ""},
+        {"kind": "hidden", "first": 7, "last": 9, "why": "a\nb"},
+        {"kind": "hidden", "first": 7, "last": 9, "why": "x" * 81},
         {"kind": "forbid", "points": [[1, 2]], "radius": -1},
         {"kind": "forbid", "points": [[1, 2, 3]], "radius": 1},
         {"kind": "guide", "points": [], "radius": 2},

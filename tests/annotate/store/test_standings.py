@@ -65,3 +65,14 @@ def test_lists_know_what_was_said(folder):
     assert store.cards("ann", 1)[1].comment == Comment("no sky", "eve")  # from the log
     assert store.cards("ann", 1)[2].comment is None
     store.close()
+
+
+def test_others_have_finished_what_they_accepted_and_no_more_is_told(folder):
+    label(folder, annotator="bob", number=2, photos=1)
+    with closing(Store(folder)) as store:
+        finished = standings.finished_by_others(store._connection, "cy", 1)
+        assert finished == {1: ("ann", "bob, pass 2"), 2: ("ann",)}
+        finished = standings.finished_by_others(store._connection, "ann", 1)
+        assert finished == {1: ("bob, pass 2",)}
+        cards = store.cards("ann", 1)
+        assert [cards[photo].finished_by for photo in (1, 2)] == [("bob, pass 2",), ()]

@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from annotate.formats import FormatError, import_labels
 from annotate.formats.whole import MOST_OPERATIONS
 from annotate.store.database import NAME
+from annotate.store.operations import Hide, SetStatus, SetTag, Straight
 from annotate.store.store import Store
 from annotate.work.importing import checked
 from testing.examples import examples
-from testing.labelling import served, write_hills
+from testing.labelling import served, workbench, write_hills
 from testing.labels import POISON, label, poisoned, run
 
 SOUND = [
@@ -315,7 +316,6 @@ def test_a_poisoned_folder_works_for_the_rest(kind, body, folder, tmp_path, caps
         assert page.get(f"/api/photos/{ids['hill-1.png']}/strip").status_code in (200, 422)
         assert page.get(f"/api/photos/{ids['hill-0.png']}").status_code == 200
         assert page.get("/api/exports/csv").status_code == 200
-        assert page.get("/api/sheet?status=all").status_code == 200
 
 
 def test_a_hostile_label_is_checked_before_the_store_sees_it(document, folder):
@@ -328,3 +328,31 @@ def test_a_hostile_label_is_checked_before_the_store_sees_it(document, folder):
     bad = next(one for one in found if one.name == "hill-1.png")
     with pytest.raises(FormatError, match="operation 4"):
         checked(bad, photos["hill-1.png"], "ann", 1, status="accepted", source="labels.json")
+
+
+def test_no_visible_skyline_and_what_hides_columns_go_there_and_come_back(folder, tmp_path):
+    bench = workbench(folder)
+    session = bench.session(1)
+    for one in (
+        Straight(column=0, row=9, to_column=69, to_row=9),
+        Hide(first=3, last=8, why="fog"),
+        SetTag(tag="no visible skyline", on=True),
+        SetStatus(status="accepted"),
+    ):
+        session.apply(one, -1)
+    bench.close()
+    out = tmp_path / "out"
+    assert run("export", folder, "--format", "json", "--out", out) == 0
+    (told,) = json.loads((out / "labels.json").read_text())["labels"]
+    assert not any(told["skyline"]["visible"])
+    assert told["hidden"] == [{"first": 3, "last": 8, "why": "fog"}]
+    other = write_hills(tmp_path / "other")
+    assert run("import", other, out) == 0
+    bench = workbench(other)
+    session = bench.session(1)
+    assert session.state.edits.hidden == session.wire.edits.hidden == ((3, 8, "fog"),)
+    assert session.wire.skyline.visible.sum() == 64  # as the annotator left it, tag aside
+    assert session.state.tags == ("no visible skyline",)
+    (label_of,) = bench.joined().labels
+    assert not label_of.skyline.visible.any()
+    bench.close()
