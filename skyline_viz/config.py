@@ -208,7 +208,7 @@ class DetectorConfig:
 
 
 @cache
-def _presets(kind: type[Any]) -> dict[str, DetectorConfig]:
+def _presets(kind: Any) -> dict[str, DetectorConfig]:
     """Those of a class, made and checked once: names are sought for every detection."""
     return {"default": kind(), "paper": kind.paper()}
 
