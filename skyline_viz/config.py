@@ -132,7 +132,7 @@ class DetectorConfig:
     @classmethod
     def presets(cls) -> dict[str, "DetectorConfig"]:
         """Configurations that have a name."""
-        return {"default": cls(), "paper": cls.paper()}
+        return dict(_presets(cls))
 
     @classmethod
     def from_file(cls, told: Mapping[str, Any], of: str = "") -> Self:
@@ -169,9 +169,10 @@ class DetectorConfig:
             'default:v=0.9,delta=10'
         """
         presets = _settings_of_presets()
-        if type(self) is not DetectorConfig and asdict(self).keys() == presets["default"].keys():
+        settings = {one.name: getattr(self, one.name) for one in fields(self)}
+        if type(self) is not DetectorConfig and settings.keys() == presets["default"].keys():
             presets = {type(self).__name__: presets["default"]}
-        return nearest_name(asdict(self), presets)
+        return nearest_name(settings, presets)
 
     def described(self) -> dict[str, object]:
         """All settings by name, for files and digests; of a class of somebody's also its place."""
@@ -204,6 +205,12 @@ class DetectorConfig:
         """
         changes: dict[str, Any] = dict(values)
         return replace(self, **changes)
+
+
+@cache
+def _presets(kind: Any) -> dict[str, DetectorConfig]:
+    """Those of a class, made and checked once: names are sought for every detection."""
+    return {"default": kind(), "paper": kind.paper()}
 
 
 @cache

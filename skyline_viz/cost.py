@@ -63,6 +63,9 @@ class Seen:
     scores: F32
     """``(n,)`` their scores, in [0, 1]."""
 
+    full: F32 | None = None
+    """``(n,)`` their strengths as `normalised` has them, where that is known already."""
+
     pixels: tuple[Int, Int] | None = None
     """``(n,)`` rows and columns of the edge pixels, where they have been listed already."""
 
@@ -92,7 +95,9 @@ def score(seen: Seen) -> EdgeTerm:
 def strength(seen: Seen) -> EdgeTerm:
     """What edge pixels pay for a weak gradient."""
     config = seen.config
-    good = normalised(seen.strength, config.strength_percentile)
+    good = seen.full
+    if good is None:
+        good = normalised(seen.strength, config.strength_percentile)
     read_only(good)
     return EdgeTerm(
         name="strength",

@@ -10,29 +10,22 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from skyline_viz.arrays import F32, U8, check_photo
+from skyline_viz.arrays import F32, U8, Int, check_photo
 from skyline_viz.config import DetectorConfig, TrainingConfig
-from skyline_viz.cost import CostModel, Seen
 from skyline_viz.datasets.item import Item
 from skyline_viz.detection import timed
-from skyline_viz.edges import candidate_edges, edge_pixels, edge_settings, frame_of, to_grey
+from skyline_viz.edges import edge_settings
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
 from skyline_viz.filter_detection import FilterDetection
-from skyline_viz.frames.frame import Frame, around_frame
+from skyline_viz.frames.frame import Frame
 from skyline_viz.frames.visibility import visibility
-from skyline_viz.kernels.planes import padded_planes
-from skyline_viz.path import shortest_path
-from skyline_viz.score import score_at
+from skyline_viz.pipeline import Stages, run_stages, sky_inside
 from skyline_viz.sky_model import NETWORK, SkyModel
 from skyline_viz.skyline import Skyline
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError
-from skyline_viz.tensor import Tensor, tensor_at
 from skyline_viz.training import GramMatrices, gather_item, solve
-
-STAGES = ("sky", "edges", "tensor", "bins", "score", "cost", "path")
-"""The stages whose seconds are told, in their order."""
 
 FILTERS = "filters"
 """What our detector is called as a method in the header of a file."""
@@ -283,59 +276,23 @@ class Detector:
         """
         return self._detect(found.photo, found)
 
+    def rows_again(self, found: FilterDetection) -> Int:
+        """``(W,)`` int32 rows of the line that `again` finds, without asking where it is visible.
+
+        Args:
+            found: What another detector, or this one, found.
+        """
+        return self._stages(found.photo, found).path.rows
+
     def _detect(self, photo: U8, found: FilterDetection | None = None) -> FilterDetection:
         """See `detect` and `again`."""
-        config, bank = self.config, self.bank
-        seconds = dict.fromkeys(STAGES if config.sky_weight else STAGES[1:], 0.0)
-        if found and found.config.frame == config.frame:
-            frame = found.frame
-        else:
-            with timed(seconds, "edges"):
-                frame = frame_of(photo, config)
-        sky = self._sky(photo, frame, seconds, found)
-        if found and not (bank.bins == found.bank.bins and _edges_alike(config, sky, found)):
-            found = None
-        if found:
-            edges, thresholds = found.edges, found.thresholds
-            rows, columns, bins = found.edge_rows, found.edge_columns, found.bins
-            tensor = Tensor(found.strength, found.coherence, found.orientation)
-        else:
-            with timed(seconds, "edges"):
-                planes = padded_planes(photo)
-                edges, thresholds = candidate_edges(photo, config, frame, sky, planes)
-                rows, columns = edge_pixels(edges)
-            with timed(seconds, "tensor"):
-                tensor = tensor_at(photo, rows, columns, planes)
-            del planes  # as large as the photo
-            with timed(seconds, "bins"):
-                bins = bank.bins.of(tensor)
-        if found and bank is found.bank:
-            scores = found.scores
-        else:
-            with timed(seconds, "score"):
-                scores = score_at(to_grey(photo), rows, columns, bins, bank.filters)
-        if found and scores is found.scores and sky is found.sky and _cost_alike(config, found):
-            model, cost = found.cost_model.searched(config), found.cost
-        else:
-            seen = Seen(
-                photo=photo,
-                sky=sky,
-                edges=edges,
-                pixels=(rows, columns),
-                strength=tensor.strength,
-                scores=scores,
-                config=config,
-                bank=bank,
-            )
-            with timed(seconds, "cost"):
-                model = CostModel.of(seen)
-                cost = model.total()
-        with timed(seconds, "path"):
-            path = shortest_path(cost, config.delta, config.link_weight)
-            line = Skyline(path.rows.astype(np.float32), frame.shows(photo.shape[1]))
+        made = self._stages(photo, found)
+        frame, sky, looks = made.frame, made.sky, made.looks
+        with timed(made.seconds, "path"):
+            line = Skyline(made.path.rows.astype(np.float32), frame.shows(photo.shape[1]))
             shown = None
             if sky is not None:
-                shown = visibility(sky, line.rows, rows, columns, len(edges), frame)
+                shown = visibility(sky, line.rows, *made.pixels, len(made.edges), frame)
                 line = Skyline(line.rows, shown.visible)
         return FilterDetection(
             method=self.name,
@@ -344,35 +301,26 @@ class Detector:
             frame=frame,
             visibility=shown,
             sky=sky,
-            edges=edges,
-            edge_rows=rows,
-            edge_columns=columns,
-            strength=tensor.strength,
-            coherence=tensor.coherence,
-            orientation=tensor.orientation,
-            bins=bins,
-            scores=scores,
-            cost=cost,
-            path_cost=path.cost,
-            thresholds=thresholds,
-            seconds=seconds,
-            cost_model=model,
-            config=config,
-            bank=bank,
+            edges=made.edges,
+            edge_rows=made.pixels[0],
+            edge_columns=made.pixels[1],
+            strength=looks.tensor.strength,
+            coherence=looks.tensor.coherence,
+            orientation=looks.tensor.orientation,
+            bins=looks.bins,
+            scores=looks.scores,
+            cost=made.cost,
+            path_cost=made.path.cost,
+            thresholds=made.thresholds,
+            seconds=made.seconds,
+            cost_model=made.cost_model,
+            config=self.config,
+            bank=self.bank,
             detector=self,
         )
 
-    def _sky(
-        self, photo: U8, frame: Frame, seconds: dict[str, float], found: FilterDetection | None
-    ) -> F32 | None:
-        """The map of the sky model, that of a detection if it is the same; None if switched off."""
-        if not self.config.sky_weight:
-            return None
-        same = found and found.frame == frame and found.detector.sky == self.sky
-        if found and same and found.sky is not None:
-            return found.sky
-        with timed(seconds, "sky"):
-            return self.sky_of(photo, frame)
+    def _stages(self, photo: U8, found: FilterDetection | None) -> Stages:
+        return run_stages(photo, self.bank, self.config, self.sky, found)
 
     def sky_of(self, photo: U8, frame: Frame) -> F32:
         """``(h, w)`` the map of the sky model, which sees the picture inside a frame alone.
@@ -381,19 +329,4 @@ class Detector:
             photo: ``(H, W, 3)`` uint8 RGB.
             frame: Its frame.
         """
-        inside = np.ascontiguousarray(photo[frame.inside(photo)])
-        return around_frame(self.sky.sky(inside), frame, *photo.shape[:2])
-
-
-def _edges_alike(config: DetectorConfig, sky: F32 | None, found: FilterDetection) -> bool:
-    """Whether all that edges depend on is that of a detection."""
-    ours = 1.0 if sky is None else config.sky_edges
-    theirs = 1.0 if found.sky is None else found.config.sky_edges
-    sought = ours == theirs and (ours == 1 or sky is found.sky)
-    return sought and edge_settings(config) == edge_settings(found.config)
-
-
-def _cost_alike(config: DetectorConfig, found: FilterDetection) -> bool:
-    """Whether all settings are those of a detection, but for those of the path."""
-    theirs = found.config
-    return replace(config, delta=theirs.delta, link_weight=theirs.link_weight) == theirs
+        return sky_inside(self.sky, photo, frame)

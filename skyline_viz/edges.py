@@ -50,6 +50,9 @@ many if the map has more."""
 SHORTEST_GAP = 1 / 64
 """Edges are sought where they are missing in this share of the columns, one after the other."""
 
+EDGE_SETTINGS = ("edge_source", "low_threshold", "high_threshold", "fit_thresholds", "frame")
+"""Settings on which edges depend where there is no map of the sky."""
+
 
 def to_grey(photo: U8) -> U8:
     """Grey photo ``(H, W)`` uint8 of an RGB photo ``(H, W, 3)``, with the weights of ITU-R 601.
@@ -255,8 +258,7 @@ def _without_edge(edges: Bool, near: Int, half: int) -> Bool:
 
 def edge_settings(config: DetectorConfig) -> tuple[object, ...]:
     """What `candidate_edges` depends on where there is no map of the sky."""
-    thresholds = (config.low_threshold, config.high_threshold, config.fit_thresholds)
-    return (config.edge_source, *thresholds, config.frame)
+    return tuple(getattr(config, name) for name in EDGE_SETTINGS)
 
 
 @numba.njit(cache=True, nogil=True)

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from skyline_viz.arrays import F32, Bool, Int
+from skyline_viz.arrays import F32, Bool
 from skyline_viz.cost import CostModel, Seen
 from skyline_viz.diagnosis.counterfactual import Case
-from skyline_viz.edges import edge_index, edge_pixels, find_edges, to_grey
+from skyline_viz.edges import edge_pixels, find_edges
 from skyline_viz.evaluation.metrics import scaled
 from skyline_viz.filter_detection import FilterDetection
-from skyline_viz.score import score_at
-from skyline_viz.tensor import tensor_at
+from skyline_viz.known import looks_of
 
 FACTORS = {0.5: "half the", 0.25: "a quarter of the", 2.0: "twice the"}
 """Factors of the Canny thresholds that are tried, and what they are in words."""
@@ -83,25 +82,16 @@ def _edges(detection: FilterDetection, band: Bool, factor: float) -> Bool:
 
 def _cost(detection: FilterDetection, edges: Bool) -> F32:
     """``(H, W)`` nodal costs with other edges: those that were there keep what is known of them."""
-    rows, columns = edge_pixels(edges)
-    known: Int = edge_index(detection.edges)[rows, columns]
-    new = known < 0
-    tensor = tensor_at(detection.photo, rows[new], columns[new])
-    bank = detection.bank
-    bins = bank.bins.of(tensor)
-    scores, strength = np.empty((2, len(rows)), np.float32)
-    scores[~new], strength[~new] = detection.scores[known[~new]], detection.strength[known[~new]]
-    grey = to_grey(detection.photo)
-    scores[new] = score_at(grey, rows[new], columns[new], bins, bank.filters)
-    strength[new] = tensor.strength
+    pixels = edge_pixels(edges)
+    looks = looks_of(detection.photo, pixels, detection.bank, {}, found=detection)
     seen = Seen(
         photo=detection.photo,
         sky=detection.sky,
         edges=edges,
-        pixels=(rows, columns),
-        strength=strength,
-        scores=scores,
+        pixels=pixels,
+        strength=looks.tensor.strength,
+        scores=looks.scores,
         config=detection.config,
-        bank=bank,
+        bank=detection.bank,
     )
     return CostModel.of(seen).total()

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from skyline_viz.arrays import Int
+from skyline_viz.config import DetectorConfig
 from skyline_viz.detection import Detection
+from skyline_viz.detector import Detector
 from skyline_viz.diagnosis.counterfactual import REPAIRED, Case
 from skyline_viz.diagnosis.diagnosing import Diagnosis
 from skyline_viz.diagnosis.other_settings import flags, pairs_to_try, settings_to_try
@@ -57,7 +60,26 @@ def try_remedies(detection: Detection, truth: Skyline, found: Diagnosis) -> tupl
     Each setting is tried alone, then pairs of those that helped most, then the larger sky model.
     Nothing is tried on detections of methods that have other settings than ours.
     """
-    return tuple(remedy for remedy, _ in _tried(detection, truth, found))
+    if not isinstance(detection, FilterDetection):
+        return ()
+    case, config = Case(detection, truth, found.tolerance), detection.config
+    runs = [segment.columns for segment in found.segments]
+
+    def tried(name: str, spelt: str, detector: Detector) -> Remedy:
+        return _remedy(case, runs, name, spelt, detector.rows_again(detection))
+
+    def with_settings(name: str, changed: DetectorConfig) -> Remedy:
+        detector = replace(detection.detector, config=changed)
+        return tried(name, flags(config, changed), detector)
+
+    single = settings_to_try(detection)
+    alone = [with_settings(*one) for one in single.items()]
+    pairs = pairs_to_try(config, single, {one.name: one.change for one in alone})
+    both = [replace(with_settings(*one), pair=True) for one in pairs.items()]
+    if not (config.sky_weight and detection.detector.sky == SkyModel.small()):
+        return (*alone, *both)
+    larger = replace(detection.detector, sky=SkyModel.large())
+    return (*alone, *both, tried(f"the larger sky model ({LARGER})", LARGER, larger))
 
 
 def ranked(remedies: Sequence[Remedy]) -> list[Remedy]:
@@ -75,9 +97,10 @@ def most_helpful(
     detection: Detection, truth: Skyline, found: Diagnosis
 ) -> tuple[Remedy, Skyline] | None:
     """The best remedy of a detection, and the line with it; None where nothing helps."""
-    tried = dict(_tried(detection, truth, found))
-    remedy = best([*tried])
-    return (remedy, tried[remedy]) if remedy else None
+    tried = try_remedies(detection, truth, found)
+    remedy = best(tried)
+    line = line_with(detection, remedy, tried) if remedy else None
+    return (remedy, line) if remedy and line else None
 
 
 def line_with(detection: Detection, remedy: Remedy, tried: Sequence[Remedy]) -> Skyline | None:
@@ -98,38 +121,12 @@ def line_with(detection: Detection, remedy: Remedy, tried: Sequence[Remedy]) -> 
     return detection.again(config).skyline if config else None
 
 
-def _tried(
-    detection: Detection, truth: Skyline, found: Diagnosis
-) -> Iterator[tuple[Remedy, Skyline]]:
-    """Every remedy, and the line with it."""
-    if not isinstance(detection, FilterDetection):
-        return
-    case, config = Case(detection, truth, found.tolerance), detection.config
-    runs = [segment.columns for segment in found.segments]
-    changes: dict[str, float] = {}
-    single = settings_to_try(detection)
-    for name, changed in single.items():
-        line = detection.again(changed).skyline
-        remedy = _remedy(case, runs, name, flags(config, changed), line)
-        changes[name] = remedy.change
-        yield remedy, line
-    for name, changed in pairs_to_try(config, single, changes).items():
-        line = detection.again(changed).skyline
-        remedy = _remedy(case, runs, name, flags(config, changed), line)
-        yield replace(remedy, pair=True), line
-    detector = detection.detector
-    if config.sky_weight and detector.sky == SkyModel.small():
-        line = replace(detector, sky=SkyModel.large()).again(detection).skyline
-        yield _remedy(case, runs, f"the larger sky model ({LARGER})", LARGER, line), line
-
-
 def _remedy(
-    case: Case, runs: Sequence[tuple[int, int]], name: str, spelt: str, line: Skyline
+    case: Case, runs: Sequence[tuple[int, int]], name: str, spelt: str, rows: Int
 ) -> Remedy:
     """What a line does that another setting has found."""
     height = len(case.detection.edges)
-    errors = column_errors(line, case.truth)
-    rows = line.rows.astype(np.int32)
+    errors = column_errors(Skyline(rows.astype(np.float32)), case.truth)
     wrong = wrong_segments(errors, height, case.tolerance)
     after = float(np.nanmean(errors))
     return Remedy(

@@ -55,7 +55,10 @@ def check_number(name: str, value: object, low: float, high: float, whole: bool 
         SettingError: The message names the setting and its range.
     """
     kind = "whole number" if whole else "number"
-    numeric = isinstance(value, Integral if whole else Real) and not isinstance(value, bool)
+    plain = type(value) is int or (type(value) is float and not whole)
+    numeric = plain or (
+        isinstance(value, Integral if whole else Real) and not isinstance(value, bool)
+    )
     if not (numeric and low <= plain_number(value) <= high):
         raise SettingError(f"{name} is a {kind} from {low:g} to {_plain(high)}, not {_said(value)}")
 
@@ -71,6 +74,8 @@ def plain_number(value: object, real: bool = False) -> Any:  # noqa: ANN401 - or
     >>> plain_number(np.float32(0.25)), plain_number(np.int64(4)), plain_number(1, real=True)
     (0.25, 4, 1.0)
     """
+    if type(value) is float:  # most are, and abstract kinds are slow to ask for
+        return value
     if isinstance(value, tuple):
         return tuple(plain_number(one, real) for one in value)
     if isinstance(value, bool) or not isinstance(value, Real):
