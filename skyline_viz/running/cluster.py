@@ -1,9 +1,9 @@
 """Running a function over many photos on a cluster, as `batch.run` does in processes.
 
-The scheduler is dask's. Photos travel as their names; what comes back is what the function gives.
-The function itself is the result of a task, so that it is sent to a worker once, and a worker that
-comes later gets it, too. A few tasks a thread are under way at a time. The photos of a worker that
-is lost are done by others.
+The scheduler is dask's. Photos travel as their names, eight at the most in a task of dask's; what
+comes back is what the function gives. The function itself is the result of a task, so that it is
+sent to a worker once, and a worker that comes later gets it, too. A few tasks a thread are under
+way at a time. The photos of a worker that is lost are done by others.
 """
 
 from __future__ import annotations
@@ -34,14 +34,16 @@ LOCAL = re.compile(r"local:([1-9]\d{0,2})")
 """A cluster of so many processes on this machine, for a try."""
 
 _ADDRESS = re.compile(r"(tcp|tls|ws|wss|ucx)://\S+:\d+")
-_A_THREAD = 4  # tasks under way for each thread of a worker
+_A_THREAD = 3  # tasks under way for each thread of a worker
+_MOST_A_TASK = 8  # photos: a task costs the scheduler and its client some milliseconds
 _COUNT_EVERY = 10.0  # seconds between two looks at how many threads there are
 _FIRST_WORKER = 600.0  # seconds to wait for one
 
 _SETTINGS = {
     "distributed.worker.profile.enabled": False,  # of photos it says nothing, and takes time
     "distributed.admin.low-level-log-length": 1000,  # else it grows with the photos
-    "distributed.admin.system-monitor.interval": "1s",
+    "distributed.admin.system-monitor.interval": "5s",
+    "distributed.admin.tick.interval": "1s",  # 50 a second take a thirtieth of a processor
     "distributed.comm.timeouts.connect": "10s",
     "distributed.scheduler.work-stealing": False,  # photos cost alike, and wait for no data
 }
@@ -90,37 +92,55 @@ class Cluster:
     def _outcomes(
         self, function: Callable[[Task], Value], tasks: Sequence[Task]
     ) -> Generator[Value | Failure, None, None]:
-        name = f"photo-{secrets.token_hex(8)}"  # no task has the name of one of another run
-        waiting: deque[tuple[Task, Any]] = deque()
-        numbers, coming = itertools.count(), iter(tasks)
+        waiting: deque[tuple[Sequence[Task], Any]] = deque()
         threads = _Threads(self.client)
+        size = max(1, min(_MOST_A_TASK, len(tasks) // threads.most()))
+        coming = (tasks[first : first + size] for first in range(0, len(tasks), size))
         try:
-            sent = packed((function, versions(), photo_limit()), title_of(function))
-            work = self.client.submit(bytes, sent, key=f"work-{secrets.token_hex(8)}")
+            send = self._sender(function)
             while True:
-                for task in itertools.islice(coming, threads.most() - len(waiting)):
-                    key = f"{name}-{next(numbers)}"
-                    told = packed(task, task.name)
-                    future = self.client.submit(_attempt_there, work, told, key=key, pure=False)
-                    waiting.append((task, future))
+                for part in itertools.islice(coming, threads.most() - len(waiting)):
+                    waiting.append((part, send(part)))
                 if not waiting:
                     return
-                yield self._outcome(*waiting.popleft())
+                yield from self._of_part(send, *waiting.popleft())
         except Unsendable as error:
             raise BatchError(str(error)) from error
         finally:
             with contextlib.suppress(Exception):  # of a cluster that is gone
                 self.client.cancel([future for _, future in waiting], force=True)
 
-    def _outcome(self, task: Task, future: Any) -> Any:  # noqa: ANN401
+    def _sender(self, function: Callable[[Task], Value]) -> Callable[[Sequence[Task]], Any]:
+        """What sends photos to a worker, and gives dask's word for what they will come to."""
+        run, numbers = secrets.token_hex(8), itertools.count()  # no two tasks have the same name
+        sent = packed((function, versions(), photo_limit()), _named(function))
+        work = self.client.submit(bytes, sent, key=f"work-{run}")
+
+        def send(part: Sequence[Task]) -> Any:  # noqa: ANN401
+            told = packed([*part], part[0].name)
+            key = f"photos-{run}-{next(numbers)}"
+            return self.client.submit(_attempt_there, work, told, key=key, pure=False)
+
+        return send
+
+    def _of_part(
+        self,
+        send: Callable[[Sequence[Task]], Any],
+        part: Sequence[Task],
+        future: Any,  # noqa: ANN401
+    ) -> Iterator[Value | Failure]:
+        """What photos came to; where workers died of one of them, each goes alone."""
         distributed = dask("distributed")
         try:
-            outcome, notes = unpacked(future.result())
+            outcomes, notes = unpacked(future.result())
         except distributed.scheduler.KilledWorker as error:
-            killed = error.allowed_failures + 1
-            return Failure(
-                task.name, f"{killed} workers died of it, one by one, probably for want of memory"
-            )
+            if len(part) > 1:
+                for task in part:
+                    yield from self._of_part(send, [task], send([task]))
+                return
+            died = f"{error.allowed_failures + 1} workers died of it, one by one"
+            yield Failure(part[0].name, f"{died}, probably for want of memory")
+            return
         except (ClusterError, Unsendable, ImportError) as error:
             raise BatchError(_said(error)) from error
         except (OSError, distributed.client.FutureCancelledError) as error:
@@ -129,9 +149,10 @@ class Cluster:
             ) from error
         for one in notes:
             note(one)
-        if isinstance(outcome, OSError):
-            raise outcome
-        return outcome
+        for outcome in outcomes:
+            if isinstance(outcome, OSError):
+                raise outcome
+            yield outcome
 
 
 class _Threads:
@@ -256,28 +277,28 @@ def _said(error: Exception) -> str:
     return f"a worker {_lacking(error)}." if isinstance(error, ImportError) else str(error)
 
 
-def title_of(function: Callable[..., object]) -> str:
+def _named(function: Callable[..., object]) -> str:
     """What to call a function that cannot be sent."""
     return str(getattr(getattr(function, "func", function), "__name__", "the work"))
 
 
 def _attempt_there(work: bytes, told: bytes) -> bytes:
-    """The outcome of a task on a worker, and what was noted about photos on the way.
+    """The outcomes of photos on a worker, and what was noted on the way.
 
     Raises:
         ClusterError: The worker has other versions than the program that sent the work.
-        Unsendable: The work cannot be unpacked here, or the outcome cannot be sent back.
+        Unsendable: The work cannot be unpacked here, or an outcome cannot be sent back.
     """
     function = _function(work)
-    task = unpacked(told)
+    outcomes: list[object] = []
     notes: list[str] = []
-    outcome: object
     with heard_by(notes.append):
-        try:
-            outcome = attempt(function, task)
-        except OSError as error:  # a full disk: told as what it is, not as a lost connection
-            outcome = error
-    return packed((outcome, notes), task.name)
+        for task in unpacked(told):
+            try:
+                outcomes.append(attempt(function, task))
+            except OSError as error:  # a full disk: told as what it is, not as a lost connection
+                outcomes.append(error)
+    return packed((outcomes, notes), "what was found")
 
 
 @lru_cache(maxsize=1)
