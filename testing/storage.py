@@ -1,6 +1,7 @@
 """An S3 on this machine, which can be told to be busy, to break off, and to lose things."""
 
 import threading
+import urllib.request
 from contextlib import contextmanager
 
 import fsspec
@@ -55,11 +56,13 @@ def s3(monkeypatch):
     thread = threading.Thread(target=server.serve_forever, daemon=True)
     thread.start()
     try:
-        monkeypatch.setenv("AWS_ENDPOINT_URL", f"http://127.0.0.1:{server.server_port}")
+        place = f"http://127.0.0.1:{server.server_port}"
+        monkeypatch.setenv("AWS_ENDPOINT_URL", place)
         monkeypatch.setenv("AWS_MAX_ATTEMPTS", "1")
         for name in ("AWS_ACCESS_KEY_ID", "AWS_SECRET_ACCESS_KEY"):
             monkeypatch.setenv(name, "testing")
         monkeypatch.setenv("AWS_DEFAULT_REGION", "us-east-1")
+        urllib.request.urlopen(f"{place}/moto-api/reset", data=b"").close()  # it outlives servers
         files = fsspec.filesystem("s3", skip_instance_cache=True)
         type(files).clear_instance_cache()
         files.mkdir(BUCKET)
