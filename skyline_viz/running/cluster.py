@@ -38,6 +38,7 @@ _A_THREAD = 3  # tasks under way for each thread of a worker
 _MOST_A_TASK = 8  # photos: a task costs the scheduler and its client some milliseconds
 _COUNT_EVERY = 10.0  # seconds between two looks at how many threads there are
 _FIRST_WORKER = 600.0  # seconds to wait for one
+_PATIENCE = "10s"  # of connecting
 
 _SETTINGS = {
     "distributed.worker.profile.enabled": False,  # of photos it says nothing, and takes time
@@ -194,7 +195,7 @@ def cluster_at(where: str) -> Iterator[Cluster]:
             where = until_done.enter_context(_started(int(local[1]))).scheduler_address
         try:
             client = until_done.enter_context(
-                distributed.Client(where, set_as_default=False, timeout="10s")
+                distributed.Client(where, set_as_default=False, timeout=_PATIENCE)
             )
         except (OSError, TimeoutError) as error:
             raise ClusterError(f"no cluster answers at {where}.") from error

@@ -20,6 +20,7 @@ from skyline_viz.running.line_table import (
     found_row,
     read_about,
     read_rows,
+    stamped_row,
     write_lines,
 )
 from skyline_viz.running.resume import digest_of, digest_of_method
@@ -114,11 +115,11 @@ def detect_into(
                 failures[outcome.name] = outcome
                 continue
             photo = outcome.photo
-            if outcome.row is None:
+            row = outcome.row
+            if row is None:
                 known += 1
-                store.stamped(photo.name, photo.stamp)
-            else:
-                store.keep(photo.name, photo.stamp, outcome.sha256, outcome.row)
+                row = stamped_row(store.row(photo.name) or b"", photo.stamp)
+            store.keep(photo.name, photo.stamp, outcome.sha256, row)
         rows = _rows(store, photos, failures)
         write_lines(table, rows, {**about, "digest": digest})
     store_of(table).unlink(missing_ok=True)

@@ -64,11 +64,6 @@ class LineStore:
         told = (photo, stamp, sha256, row)
         self._database.execute("insert or replace into photos values (?, ?, ?, ?)", told)
 
-    def stamped(self, photo: str, stamp: str) -> None:
-        """Keep that the content of a photo has a new stamp, and is as it was."""
-        told = (stamp, photo)
-        self._database.execute("update photos set stamp = ? where photo = ?", told)
-
     def __len__(self) -> int:
         return int(self._database.execute("select count(*) from photos").fetchone()[0])
 

@@ -103,6 +103,17 @@ def found_row(photo: str, stamp: str, sha256: str, found: Detection) -> bytes:
     )
 
 
+def stamped_row(row: bytes, stamp: str) -> bytes:
+    """A row whose photo has another stamp, and the same content."""
+    pa = arrow()
+    batch = _batch(row)
+    place, kind = schema().get_field_index("stamp"), pa.string()
+    stamped: bytes = (
+        batch.set_column(place, "stamp", pa.array([stamp], kind)).serialize().to_pybytes()
+    )
+    return stamped
+
+
 def failed_row(photo: str, reason: str) -> bytes:
     """The row of a photo that failed."""
     return _packed({"photo": photo, "error": reason})
@@ -119,13 +130,12 @@ def write_lines(path: Path, rows: Iterable[bytes], about: Mapping[str, object]) 
     Raises:
         OSError: The disk is full or read-only.
     """
-    pa = arrow()
     told = schema().with_metadata({ABOUT: json.dumps(about, ensure_ascii=False)})
     count = 0
     with replacing(path) as temporary, _writer(temporary, told) as writer:
         waiting: list[Any] = []
         for row in rows:
-            waiting.append(pa.ipc.read_record_batch(pa.py_buffer(row), schema()))
+            waiting.append(_batch(row))
             count += 1
             if len(waiting) == _GROUP:
                 writer.write_table(_joined(waiting, told))
@@ -145,11 +155,12 @@ def read_about(path: Path) -> dict[str, Any]:
     parquet = arrow("pyarrow.parquet")
     try:
         found = parquet.read_schema(path)
-        about = json.loads((found.metadata or {})[ABOUT.encode()])
-    except OSError as error:
-        if error.errno is not None:
+    except (OSError, ValueError) as error:
+        if isinstance(error, OSError) and error.errno is not None:
             raise
         raise TableError(f"{path} is damaged, or no Parquet table.") from error
+    try:
+        about = json.loads((found.metadata or {})[ABOUT.encode()])
     except (KeyError, ValueError) as error:
         raise TableError(f"{path} is no table of skylines.") from error
     if not isinstance(about, dict) or not found.equals(schema()):
@@ -186,6 +197,11 @@ def _packed(row: Mapping[str, object]) -> bytes:
     columns = [pa.array([row.get(one.name)], one.type) for one in schema()]
     packed: bytes = pa.record_batch(columns, schema=schema()).serialize().to_pybytes()
     return packed
+
+
+def _batch(row: bytes) -> Any:  # noqa: ANN401
+    pa = arrow()
+    return arrow("pyarrow.ipc").read_record_batch(pa.py_buffer(row), schema())
 
 
 def _joined(batches: list[Any], told: Any) -> Any:  # noqa: ANN401
