@@ -14,6 +14,7 @@ from skyline_viz.commands.diagnose import Diagnose
 from skyline_viz.commands.evaluate import Evaluate
 from skyline_viz.commands.gallery import GalleryCommand
 from skyline_viz.commands.inspect import Inspect
+from skyline_viz.commands.join import Join
 from skyline_viz.commands.render import Render
 from skyline_viz.commands.tables import Tables
 from skyline_viz.commands.train import Train
@@ -59,6 +60,7 @@ def commands(methods: Methods, training: TrainingConfig) -> dict[str, Command]:
         "detect": Detect(missing, methods=methods),
         "inspect": Inspect(missing, methods=methods),
         "gallery": GalleryCommand(methods=methods),
+        "join": Join(missing, missing),
         "train": Train(missing, missing, training=training),
         "evaluate": Evaluate(missing, methods=methods),
         "tables": Tables(missing, methods=methods),

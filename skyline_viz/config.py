@@ -132,7 +132,7 @@ class DetectorConfig:
     @classmethod
     def presets(cls) -> dict[str, "DetectorConfig"]:
         """Configurations that have a name."""
-        return dict(_presets(cls))
+        return dict(_presets())
 
     @classmethod
     def from_file(cls, told: Mapping[str, Any], of: str = "") -> Self:
@@ -208,9 +208,9 @@ class DetectorConfig:
 
 
 @cache
-def _presets(kind: Any) -> dict[str, DetectorConfig]:
-    """Those of a class, made and checked once: names are sought for every detection."""
-    return {"default": kind(), "paper": kind.paper()}
+def _presets() -> dict[str, DetectorConfig]:
+    """Those that there are, made and checked once: names are sought for every detection."""
+    return {"default": DetectorConfig(), "paper": DetectorConfig.paper()}
 
 
 @cache

@@ -25,6 +25,7 @@ __all__ = [
     "PHOTO_SUFFIXES",
     "PhotoError",
     "find_photos",
+    "photo_from",
     "photo_size",
     "read_photo",
     "read_photo_with_notes",
@@ -85,7 +86,34 @@ def read_photo_with_notes(
     Raises:
         PhotoError: As `read_photo`.
     """
-    with reading(path) as file, opened(file, Path(path)) as image:
+    with reading(path) as file:
+        return _photo_in(file, path, max_megapixels)
+
+
+def photo_from(
+    file: BinaryIO, name: str, *, max_megapixels: float | None = None
+) -> tuple[U8, tuple[str, ...]]:
+    """Read one photograph from an open file, wherever its bytes come from; see `read_photo`.
+
+    Args:
+        file: The bytes, at their beginning; they can be read from any place.
+        name: What to call it; an ending tells raw files, as that of a path does.
+        max_megapixels: As `read_photo` takes it.
+
+    Returns:
+        As `read_photo_with_notes` does.
+
+    Raises:
+        PhotoError: As `read_photo`.
+    """
+    with _said_of(name):
+        return _photo_in(file, name, max_megapixels)
+
+
+def _photo_in(
+    file: BinaryIO, path: str | os.PathLike[str], max_megapixels: float | None
+) -> tuple[U8, tuple[str, ...]]:
+    with opened(file, Path(path)) as image:
         height, width = image.shape
         if max_megapixels is None:
             max_megapixels = memory.photo_limit()
@@ -130,11 +158,18 @@ def write_photo(path: str | os.PathLike[str], photo: U8, *, quality: int = 90) -
 @contextlib.contextmanager
 def reading(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     """Open a picture's file; whatever goes wrong in the block comes out as a `PhotoError`."""
-    try:
+    with _said_of(path):
         if wrong := checked_file(Path(path)):
             raise PhotoError(f"{path} {wrong}.")
         with Path(path).open("rb") as file:
             yield file
+
+
+@contextlib.contextmanager
+def _said_of(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Whatever goes wrong in the block comes out as a `PhotoError` that names a file."""
+    try:
+        yield
     except PhotoError:
         raise
     except RefusedError as error:

@@ -60,10 +60,26 @@ class Beginning:
             options: Further options by name.
             photos: What came of each photo.
         """
+        document = {
+            **self.told(method, bank, options),
+            "photos": [
+                {"name": one.name, "file": str(one.file), "sha256": one.sha256} for one in photos
+            ],
+            "failed": [{"name": one.name, "reason": one.error} for one in photos if one.error],
+        }
+        write_text(path, json.dumps(document, indent=2, ensure_ascii=False) + "\n")
+
+    def told(
+        self, method: Method, bank: Path | None, options: Mapping[str, object]
+    ) -> dict[str, object]:
+        """What there is to say of a run that ends now, but for its photos.
+
+        Takes what `write` takes.
+        """
         from skyline_viz.methods.registry import method_digest
 
         ended = datetime.now(UTC)
-        document = {
+        return {
             "format": "skyline-run",
             "version": 1,
             "package": __version__,
@@ -77,12 +93,7 @@ class Beginning:
             "bank_file": None if bank is None else str(bank.resolve()),
             "digest": method_digest(method),
             "options": dict(options),
-            "photos": [
-                {"name": one.name, "file": str(one.file), "sha256": one.sha256} for one in photos
-            ],
-            "failed": [{"name": one.name, "reason": one.error} for one in photos if one.error],
         }
-        write_text(path, json.dumps(document, indent=2, ensure_ascii=False) + "\n")
 
 
 def _settings(method: Method) -> dict[str, object]:

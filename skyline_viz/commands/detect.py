@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
-from skyline_viz.command_line.inputs import NO_PHOTOS, collect, output_folder
+from skyline_viz.command_line.inputs import NO_PHOTOS, output_folder
 from skyline_viz.command_line.messages import (
     UsageError,
     counted,
@@ -21,12 +21,15 @@ from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.run_record import RECORD, Beginning
 from skyline_viz.command_line.settings import Folder, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
-from skyline_viz.running.batch import Failure, run
+from skyline_viz.command_line.stored import StoredItem, collect_stored, stored_photo
+from skyline_viz.command_line.to_table import detect_to_table, is_table_name, shard_of, table_of
+from skyline_viz.running.batch import Failure
 from skyline_viz.running.photo_table import (
     TABLE,
     PhotoRow,
     digest_of_content,
     look_first,
+    row_from,
     sure,
     write_table,
 )
@@ -56,15 +59,17 @@ class Detect:
     """
 
     photos: Annotated[
-        tuple[Path, ...],
+        tuple[str, ...],
         tyro.conf.Positional,
         tyro.conf.arg(metavar="PHOTO"),
     ]
-    """Photos, folders of photos, or data sets."""
+    """Photos, folders of photos, or data sets; paths, or addresses such as s3://BUCKET/FOLDER,
+    gs://..., https://HOST/PHOTO.jpg, zip://FOLDER::FILE.zip."""
 
     out: Folder = Path("skylines")
     """Folder for NAME.csv: column, row of its first terrain pixel, whether visible (1 or 0), and
-    margin, small where the line is unsure; skylines.csv, how sure each photo is; run.json."""
+    margin, small where the line is unsure; skylines.csv, how sure each photo is; run.json. Or
+    FILE.parquet, for all of that as one table."""
 
     methods: MethodOptions = field(default_factory=Methods)
     """What detects, one method; our detector with its default settings unless given."""
@@ -84,11 +89,21 @@ class Detect:
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
 
+    cluster: Annotated[str | None, tyro.conf.arg(metavar="ADDRESS")] = None
+    """Work on a cluster instead: tcp://HOST:PORT, the address of a dask scheduler, or local:N for
+    one of N processes on this machine. For --out FILE.parquet."""
+
+    shard: Annotated[str | None, tyro.conf.arg(metavar="I/N")] = None
+    """Do only this part of N, such as 3/8; FILE.parquet is then a folder of parts, of which join
+    makes one table."""
+
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
 
     def run(self) -> int:
         """Detect all photos; return the exit status."""
+        from skyline_viz.running.resume import Codec, Kept, digest_of_method
+
         if not self.photos:
             raise UsageError(NO_PHOTOS)
         if not 0 <= self.overlay_width <= _WIDEST:
@@ -98,14 +113,26 @@ class Detect:
         if self.overlay_width and not self.overlay:
             raise UsageError("--overlay-width is that of --overlay, which is not asked for.")
         began = Beginning.now()
-        inputs = collect(self.photos, taken=(Path(TABLE).stem, Path(RECORD).stem))
         detector = self.methods.one()
+        if is_table_name(self.out):
+            return self._to_table(began, detector)
+        for option, value in (("--cluster", self.cluster), ("--shard", self.shard)):
+            if value is not None:
+                raise UsageError(f"{option} writes one table: name it with --out FILE.parquet.")
+        inputs = collect_stored(self.photos, taken=(Path(TABLE).stem, Path(RECORD).stem))
         output_folder(self.out, (one.item for one in inputs))
         wide = max(columns_of(shortened(one.name)) for one in inputs)
         failures: list[Failure] = []
         rows: list[PhotoRow] = []
         workers = foresee((one.item for one in inputs), self.workers)
-        outcomes = run(partial(_detect, self, detector), inputs, workers=workers)
+        kept = Kept.within(self.out, "detect")
+        outcomes = kept.run(
+            partial(_detect, self, detector),
+            inputs,
+            partial(_key, self, digest_of_method(detector)),
+            Codec(_pack, _unpack),
+            workers=workers,
+        )
         for photo, outcome in zip(inputs, outcomes, strict=True):
             if isinstance(outcome, Failure):
                 failures.append(outcome)
@@ -117,12 +144,36 @@ class Detect:
                 tell(f"{shortened(photo.name)}: {outcome.doubt}")
         write_table(self.out / TABLE, rows)
         began.write(self.out / RECORD, detector, self.methods.bank, self._options(), rows)
+        kept.remove()
+        if said := kept.said():
+            tell(said)
         _sum_up(self.out, rows, wide)
         return status_after(failures)
 
+    def _to_table(self, began: Beginning, detector: Method) -> int:
+        for option in ("mask", "overlay", "json"):
+            if getattr(self, option):
+                raise UsageError(f"--{option} writes files into a folder: name one with --out DIR.")
+        if self.cluster is not None and self.workers:
+            raise UsageError("--workers are processes of this machine, and --cluster has its own.")
+        shard = shard_of(self.shard)
+        about = began.told(detector, self.methods.bank, self._options())
+        return detect_to_table(
+            self.photos,
+            table_of(self.out, shard),
+            detector,
+            {"run": about},
+            workers=self.workers,
+            cluster=self.cluster,
+            shard=shard,
+        )
+
     def _options(self) -> dict[str, object]:
         """What else was chosen, for the record of the run."""
-        names = ("mask", "overlay", "overlay_width", "json", "workers", "max_megapixels")
+        names = (
+            *("mask", "overlay", "overlay_width", "json"),
+            *("workers", "cluster", "shard", "max_megapixels"),
+        )
         return {"out": str(self.out), **{name: getattr(self, name) for name in names}}
 
 
@@ -144,7 +195,9 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
     from skyline_viz.certainty.least_sure import least_sure
     from skyline_viz.running.warming import warm_up
 
-    pixels = photo.item.photo()
+    where = stored_photo(photo.item)
+    digest, pixels = where.read()
+    assert pixels is not None
     warm_up()
     found = detector.detect(pixels)
     line, margins = found.skyline, found.margins()
@@ -172,8 +225,8 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
     seen = found.visibility
     row = PhotoRow(
         photo.name,
-        photo.item.photo_path,
-        sha256=digest_of_content(photo.item.photo_path),
+        _file(photo),
+        sha256=digest,
         size=(height, line.width),
         confidence=found.confidence,
         case=seen.case if seen else "",
@@ -201,10 +254,45 @@ def _truth_of(photo: NamedItem, width: int) -> Skyline | None:
     return truth
 
 
+def _key(options: Detect, digest: str, photo: NamedItem) -> str:
+    """Digest of all that the outputs of a photo are made from.
+
+    Raises:
+        OSError: It cannot be read; or its storage says nothing of its content, and it would have to
+            be downloaded twice.
+    """
+    from skyline_viz.running.resume import digest_of, digest_of_files
+
+    item = photo.item
+    files = (options.mask, options.overlay, options.overlay_width, options.json)
+    start = digest_of("detect", digest, files, photo.name, str(_file(photo)))
+    if not isinstance(item, StoredItem):
+        return digest_of_files(start, item if options.overlay else replace(item, truth_path=None))
+    if not item.stored.stamp:
+        raise FileNotFoundError(item.stored.name)
+    return digest_of(start, item.stored.stamp)
+
+
+def _pack(found: _Found) -> dict[str, Any]:
+    return {"row": found.row.kept(), "files": [*map(str, found.files)], "doubt": found.doubt}
+
+
+def _unpack(kept: dict[str, Any]) -> _Found:
+    files = tuple(map(Path, kept["files"]))
+    if not all(file.exists() for file in files):
+        raise LookupError("its files are gone, and are made again")
+    return _Found(row_from(kept["row"]), files, str(kept["doubt"]))
+
+
+def _file(photo: NamedItem) -> Path | str:
+    item = photo.item
+    return item.stored.name if isinstance(item, StoredItem) else item.photo_path
+
+
 def _failed(photo: NamedItem, failure: Failure) -> PhotoRow:
     """What there is to know of a photo that failed."""
-    path = photo.item.photo_path
-    return PhotoRow(photo.name, path, digest_of_content(path), error=failure.reason)
+    digest = digest_of_content(photo.item.photo_path)
+    return PhotoRow(photo.name, _file(photo), digest, error=failure.reason)
 
 
 def _sum_up(out: Path, rows: Sequence[PhotoRow], wide: int) -> None:

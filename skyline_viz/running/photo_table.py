@@ -5,9 +5,10 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from skyline_viz.files import write_text
 
@@ -31,8 +32,8 @@ class PhotoRow:
     name: str
     """Name of its outputs."""
 
-    file: Path
-    """The photo."""
+    file: Path | str
+    """The photo's path or address."""
 
     sha256: str = ""
     """Digest of the content of its file, in hexadecimal digits."""
@@ -69,6 +70,23 @@ class PhotoRow:
         seconds = "" if self.seconds is None else f"{self.seconds:.4f}"
         about = [self.name, str(self.file), self.sha256, str(width), str(height)]
         return [*about, sure, self.case, self.stretches, seconds, self.error]
+
+    def kept(self) -> dict[str, Any]:
+        """All of it in numbers, strings and lists, see `row_from`."""
+        return {**asdict(self), "file": str(self.file)}
+
+
+def row_from(kept: Mapping[str, Any]) -> PhotoRow:
+    """A row as it was, of what `PhotoRow.kept` gave.
+
+    Raises:
+        LookupError: It is of another shape, or so are the errors below.
+        TypeError: As that.
+        ValueError: As that.
+    """
+    height, width = kept["size"]
+    least_sure = tuple((int(first), int(last)) for first, last in kept["least_sure"])
+    return PhotoRow(**{**kept, "size": (int(height), int(width)), "least_sure": least_sure})
 
 
 def write_table(path: Path, rows: Sequence[PhotoRow]) -> None:

@@ -169,20 +169,33 @@ def test_a_full_disk_ends_the_run_with_a_sentence(say, hills, monkeypatch):
     )
 
 
-def test_an_interrupt_ends_with_130_and_leaves_no_half_file(say, hills, tmp_path, monkeypatch):
+def test_an_interrupt_leaves_no_half_file_and_the_next_run_goes_on(
+    say, hills, tmp_path, monkeypatch
+):
     write = sv.Skyline.write_csv
+    written = []
 
     def interrupted(skyline, path, margins):
-        if path.stem == "p2":
+        if path.stem == "p2" and not written.count("p2"):
+            written.append("p2")
             path.parent.mkdir(exist_ok=True)
             raise KeyboardInterrupt
+        written.append(path.stem)
         write(skyline, path, margins)
 
     monkeypatch.setattr(sv.Skyline, "write_csv", interrupted)
-    status, _, err = say("detect", hills, "--out", "out", "--workers", "1")
+    words = ("detect", hills, "--out", "out", "--workers", "1")
+    status, _, err = say(*words)
     assert status == 130
     assert err == "skyline-viz: interrupted; every file that was written is whole.\n"
-    assert files(tmp_path / "out") == ["p0.csv", "p1.csv"]
+    csv_files = [name for name in files(tmp_path / "out") if name.endswith(".csv")]
+    assert csv_files == ["p0.csv", "p1.csv"]
+    (tmp_path / "out" / "p0.csv").unlink()  # what is gone is made again
+    status, out, _ = say(*words)
+    assert status == 0
+    assert "1 of 4 photos was done already." in out
+    assert written == ["p0", "p1", "p2", "p0", "p2", "p3"]
+    assert files(tmp_path / "out") == ["p0.csv", "p1.csv", "p2.csv", "p3.csv"]
 
 
 def test_the_same_photo_gives_the_same_bytes(say, tmp_path):

@@ -1,0 +1,166 @@
+"""Many photos into one table: what a cluster costs beside the pool, and what a kill costs.
+
+    python -m benchmarks.scale [PHOTOS]
+
+Makes links to a few rendered photos (10,000 unless given), detects them three times, and prints
+the figures of docs/scale.md:
+
+1. with ``--workers 2``, processor time of all processes;
+2. with ``--cluster local:2``, the same, and the memory of the process that holds client and
+   scheduler;
+3. with ``--cluster local:2`` where a worker is killed and then the client, and the same command
+   once more. Its table is to hold each photo once, with the lines of the first.
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter, sleep
+
+import psutil
+import pyarrow.parquet as pq
+
+from skyline_viz.photo import write_photo
+from skyline_viz.rendering import render
+from skyline_viz.running.line_store import store_of
+
+KINDS = ("clear", "hazy", "cloudy", "snow", "foreground", "spires", "desert", "rover")
+SIZE = (480, 360)
+LOOK_EVERY = 0.2  # seconds
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a run took."""
+
+    seconds: float
+    processor: float
+    memory: tuple[int, ...]
+    """Bytes of the first process, at each look."""
+
+    said: str
+
+
+def write_links(folder: Path, photos: int) -> Path:
+    """So many names of a few photos."""
+    folder.mkdir()
+    for number, kind in enumerate(KINDS):
+        write_photo(folder.parent / f"{kind}.jpg", render(kind, number, *SIZE).photo)
+    for number in range(photos):
+        target = folder.parent / f"{KINDS[number % len(KINDS)]}.jpg"
+        os.link(target, folder / f"photo-{number:06}.jpg")
+    return folder
+
+
+def command(folder: Path, out: Path, *more: str) -> list[str]:
+    """The command line that is measured."""
+    return [sys.executable, "-m", "skyline_viz", "detect", str(folder), "--out", str(out), *more]
+
+
+def measured(words: list[str], kill: tuple[float, float] | None = None) -> Cost:
+    """Run a command to its end, or until it is killed.
+
+    Args:
+        words: The command.
+        kill: Seconds after which a worker is killed, and after which the first process is.
+    """
+    before, began = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter()
+    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
+    process = subprocess.Popen(
+        words, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    watched, memory, killed = psutil.Process(process.pid), [], False
+    while process.poll() is None:
+        try:
+            memory.append(watched.memory_info().rss)
+        except psutil.NoSuchProcess:
+            break
+        passed = perf_counter() - began
+        if kill and passed > kill[0] and not killed:
+            worker = max(watched.children(recursive=True), key=_worked)
+            os.kill(worker.pid, signal.SIGKILL)
+            killed = True
+        if kill and passed > kill[1]:
+            process.kill()
+        sleep(LOOK_EVERY)
+    said = process.communicate()[0]
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return Cost(perf_counter() - began, spent, tuple(memory), said)
+
+
+def _worked(process: psutil.Process) -> float:
+    try:
+        return sum(process.cpu_times()[:2])
+    except psutil.NoSuchProcess:
+        return 0.0
+
+
+def lines(table: Path) -> dict[str, tuple[object, ...]]:
+    """Photo, and what was found in it, of each row; a photo that is in it twice ends the benchmark.
+
+    Raises:
+        SystemExit: A photo is in the table twice, or has failed.
+    """
+    names = ["photo", "sha256", "rows", "confidence", "error"]
+    rows = pq.read_table(table, columns=names).to_pylist()
+    twice = [photo for photo, count in Counter(row["photo"] for row in rows).items() if count > 1]
+    failed = [row["photo"] for row in rows if row["error"]]
+    if twice or failed:
+        sys.exit(f"twice: {twice[:3]}, failed: {failed[:3]}")
+    return {row["photo"]: (row["sha256"], row["rows"], row["confidence"]) for row in rows}
+
+
+def main(photos: int = 10_000) -> None:
+    """Measure, compare and print."""
+    with tempfile.TemporaryDirectory() as place:
+        here = Path(place)
+        folder = write_links(here / "photos", photos)
+        pool_out, out, broken = (here / f"{one}.parquet" for one in ("pool", "cluster", "broken"))
+        measured(command(here / "clear.jpg", here / "first.parquet"))  # compiles, once
+        pool = measured(command(folder, pool_out, "--workers", "2"))
+        _tell("--workers 2", pool, photos)
+        whole = measured(command(folder, out, "--cluster", "local:2"))
+        _tell("--cluster local:2", whole, photos)
+        more = whole.processor / pool.processor - 1
+        print(f"overhead of the cluster: {more:+.1%} of processor time a photo")
+        early, late = (whole.memory[len(whole.memory) * part // 10] for part in (3, 9))
+        print(
+            f"client and scheduler: {early / 1e6:.0f} MB after 30 % of the time, {late / 1e6:.0f} "
+            f"MB after 90 %, {max(whole.memory) / 1e6:.0f} MB at the most"
+        )
+        size = out.stat().st_size
+        print(f"table: {size / 1e6:.1f} MB, {size / photos:.0f} bytes a photo of {SIZE[0]} columns")
+        words = command(folder, broken, "--cluster", "local:2")
+        killed = measured(words, (0.35 * whole.seconds, 0.6 * whole.seconds))
+        kept = sum(one.stat().st_size for one in here.glob(f"{store_of(broken).name}*"))
+        print(f"killed after {killed.seconds:.0f} s; {kept / 1e6:.1f} MB are kept")
+        again = measured(words)
+        _tell("the same command again", again, photos)
+        print(again.said.strip())
+        found = lines(broken)
+        same = found == lines(out) == lines(pool_out)
+        print(f"photos in the table: {len(found)}, each once; the lines are the same: {same}")
+        if len(found) != photos or not same:
+            sys.exit("the tables differ")
+
+
+def _tell(what: str, cost: Cost, photos: int) -> None:
+    each = cost.processor / photos * 1000
+    print(
+        f"{what}: {cost.seconds:.0f} s, {photos / cost.seconds:.1f} photos a second, "
+        f"{each:.1f} ms of a processor a photo",
+        flush=True,
+    )
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:2]))

@@ -1,0 +1,93 @@
+"""``detect`` into one table: in processes, on a cluster, or a shard of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from skyline_viz.command_line.messages import UsageError, counted, say, status_after, tell
+from skyline_viz.command_line.sizes import foresee
+from skyline_viz.command_line.stored import photos_named
+from skyline_viz.running.batch import run
+from skyline_viz.running.line_table import SUFFIX
+from skyline_viz.running.shards import Shard
+
+if TYPE_CHECKING:
+    from skyline_viz.method import Method
+
+
+def is_table_name(out: Path) -> bool:
+    """Whether an output is one table, and not a folder of files."""
+    return out.suffix.lower() == SUFFIX
+
+
+def shard_of(text: str | None) -> Shard | None:
+    """The shard that was asked for.
+
+    Raises:
+        UsageError: There is no such shard.
+    """
+    try:
+        return Shard.parse(text) if text is not None else None
+    except ValueError as error:
+        raise UsageError(str(error)) from error
+
+
+def table_of(out: Path, shard: Shard | None) -> Path:
+    """The file to write: the output itself, or that of a shard in it.
+
+    Raises:
+        UsageError: There is a folder where a file is to be, or the other way round.
+    """
+    if shard is None:
+        if out.is_dir():
+            raise UsageError(f"{out} is a folder of shards; name a file, or a --shard.")
+        return out
+    if out.is_file():
+        raise UsageError(f"{out} is a file; shards go into a folder.")
+    return out / shard.file
+
+
+def detect_to_table(
+    words: Sequence[str],
+    table: Path,
+    method: Method,
+    about: Mapping[str, object],
+    *,
+    workers: int,
+    cluster: str | None,
+    shard: Shard | None,
+) -> int:
+    """Detect photos into a table; return the exit status.
+
+    Args:
+        words: Paths and addresses.
+        table: File to write.
+        method: What detects.
+        about: What to say of the run in the table.
+        workers: Number of processes, where there is no cluster.
+        cluster: Address of a cluster, or ``local:N``.
+        shard: The part to do.
+    """
+    from skyline_viz.running.cluster import cluster_at
+    from skyline_viz.running.line_run import detect_into
+
+    photos, files = photos_named(words)
+    if shard is not None:
+        photos = [one for one in photos if shard.holds(one.name)]
+        files = [one for one in files if shard.holds(str(one.photo_path))]
+        about = {**about, "shard": str(shard)}
+    if cluster is None:
+        processes = foresee(files, workers) if files else workers
+        done = detect_into(table, photos, method, partial(run, workers=processes), about)
+    else:
+        with cluster_at(cluster) as there:
+            say(f"the cluster shows what it does at {there.link}")
+            done = detect_into(table, photos, method, there.run, about)
+    if done.known:
+        were = "was" if done.known == 1 else "were"
+        tell(f"{done.known} of {counted(done.photos, 'photo')} {were} done already.")
+    tell(f"{counted(done.photos - len(done.failures), 'skyline')} in {table}")
+    return status_after(done.failures)

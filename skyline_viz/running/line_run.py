@@ -1,0 +1,172 @@
+"""Detecting many photos into one table: what is done is not done again, a run that died goes on.
+
+A photo is known by its name, the digest of its content, and a digest of what detects. Where its
+storage says that its content is as it was, it is not even downloaded. Photos that failed are tried
+again by the next run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from skyline_viz.method import Method
+from skyline_viz.running.batch import Failure
+from skyline_viz.running.line_store import LineStore, line_store, store_of
+from skyline_viz.running.line_table import (
+    failed_row,
+    found_row,
+    read_about,
+    read_rows,
+    stamped_row,
+    write_lines,
+)
+from skyline_viz.running.resume import digest_of, digest_of_method
+from skyline_viz.storage.stored_photo import StoredPhoto
+from skyline_viz.system.memory import photo_limit
+
+
+@dataclass(frozen=True, slots=True)
+class LineTask:
+    """A photo to detect, unless it is as it was."""
+
+    photo: StoredPhoto
+    """The photo."""
+
+    known: str = ""
+    """Digest of the content that is done."""
+
+    @property
+    def name(self) -> str:
+        """That of the photo."""
+        return self.photo.name
+
+
+@dataclass(frozen=True, slots=True)
+class FoundLine:
+    """What a photo came to."""
+
+    photo: StoredPhoto
+    """The photo."""
+
+    sha256: str
+    """Digest of its content."""
+
+    row: bytes | None
+    """Its row of the table; None where the content is the one that was done."""
+
+
+Run = Callable[[Callable[[LineTask], FoundLine], Sequence[LineTask]], Iterator[FoundLine | Failure]]
+"""How a function is run over tasks: `batch.run` with its workers, or a cluster's."""
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What a run came to."""
+
+    photos: int
+    """Photos that were asked for, each once."""
+
+    known: int
+    """Photos that were done already."""
+
+    failures: list[Failure]
+    """Photos that failed."""
+
+
+def digest_of_lines(method: Method) -> str:
+    """Digest of all that a row is made from, but for its photo."""
+    return digest_of("lines", digest_of_method(method), photo_limit())
+
+
+def detect_into(
+    table: Path,
+    photos: Sequence[StoredPhoto],
+    method: Method,
+    run: Run,
+    about: Mapping[str, object],
+) -> Summary:
+    """Detect photos and write their table, which holds each of them once, in their order.
+
+    Args:
+        table: Where to; what it holds already of the same photos and method is taken over.
+        photos: The photos.
+        method: What detects.
+        run: How to work.
+        about: What to say about the table, see `write_lines`.
+
+    Raises:
+        TableError: The file that is there is no table of skylines.
+        StoreError: Another run writes the table.
+        OSError: The disk is full or read-only.
+    """
+    photos = [*{one.name: one for one in photos}.values()]
+    digest = digest_of_lines(method)
+    failures: dict[str, Failure] = {}
+    with line_store(table, digest) as store:
+        if table.exists() and read_about(table).get("digest") == digest:
+            _take_over(store, table)
+        tasks = [*_to_do(store, photos)]
+        known = len(photos) - len(tasks)
+        for outcome in run(partial(find_line, method), tasks):
+            if isinstance(outcome, Failure):
+                failures[outcome.name] = outcome
+                continue
+            photo = outcome.photo
+            row = outcome.row
+            if row is None:
+                known += 1
+                row = stamped_row(store.row(photo.name) or b"", photo.stamp)
+            store.keep(photo.name, photo.stamp, outcome.sha256, row)
+        rows = _rows(store, photos, failures)
+        write_lines(table, rows, {**about, "digest": digest})
+    store_of(table).unlink(missing_ok=True)
+    return Summary(len(photos), known, [*failures.values()])
+
+
+def find_line(method: Method, task: LineTask) -> FoundLine:
+    """Detect a photo, unless its content is known.
+
+    Raises:
+        PhotoError: It cannot be read.
+        StorageError: It cannot be downloaded.
+    """
+    from skyline_viz.running.warming import warm_up  # noqa: PLC0415 - loads what detects
+
+    photo = task.photo
+    sha256, pixels = photo.read(task.known)
+    if pixels is None:
+        return FoundLine(photo, sha256, None)
+    warm_up()
+    row = found_row(photo.name, photo.stamp, sha256, method.detect(pixels))
+    return FoundLine(photo, sha256, row)
+
+
+def _take_over(store: LineStore, table: Path) -> None:
+    """Put what a table holds into the store, but for photos that failed or are in it already."""
+    for known, row in read_rows(table):
+        photo, sha256 = known["photo"], known["sha256"]
+        if known["error"] is None and sha256 and store.known(photo) is None:
+            store.keep(photo, known["stamp"] or "", sha256, row)
+
+
+def _to_do(store: LineStore, photos: Sequence[StoredPhoto]) -> Iterator[LineTask]:
+    for photo in photos:
+        known = store.known(photo.name)
+        if known is None:
+            yield LineTask(photo)
+        elif not photo.stamp or photo.stamp != known.stamp:
+            yield LineTask(photo, known.sha256)
+
+
+def _rows(
+    store: LineStore, photos: Sequence[StoredPhoto], failures: Mapping[str, Failure]
+) -> Iterator[bytes]:
+    for photo in photos:
+        failure = failures.get(photo.name)
+        row = None if failure else store.row(photo.name)
+        if row is None:
+            row = failed_row(photo.name, failure.reason if failure else "it was not reached")
+        yield row

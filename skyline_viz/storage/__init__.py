@@ -1,0 +1,1 @@
+"""Photos by their addresses: in object storage, on web servers, in archives."""

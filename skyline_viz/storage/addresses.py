@@ -1,0 +1,136 @@
+"""What an address is, and the file system behind it.
+
+An address has a scheme: ``s3://bucket/key``, ``gs://bucket/key``, ``https://host/photo.jpg``,
+``zip://folder::s3://bucket/archive.zip``, and whatever else fsspec knows. Everything without one is
+a path. Credentials and servers are those that the environment gives to the library of the storage.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from typing import Any
+
+EXTRA = "cluster"
+"""The extra that brings the libraries."""
+
+_SCHEME = re.compile(r"([a-z][a-z0-9+.-]+)(://|::)", re.ASCII)
+_OURS = ("aiohttp", "gcsfs", "s3fs")
+
+
+class StorageError(ValueError):
+    """An address leads nowhere; the message is one sentence that names it and the reason."""
+
+
+def is_address(text: str | os.PathLike[str]) -> bool:
+    """Whether a text is an address, and not a path.
+
+    >>> is_address("s3://photos/alps"), is_address("photos/alps"), is_address("C:/photos")
+    (True, False, False)
+    """
+    return isinstance(text, str) and _SCHEME.match(text) is not None
+
+
+def needed(module: str, what: str) -> Any:  # noqa: ANN401 - a module's names are not known here
+    """A module of the extra.
+
+    Args:
+        module: What is imported.
+        what: What needs it, for the sentence.
+
+    Raises:
+        StorageError: The package is not installed.
+    """
+    try:
+        return import_module(module)
+    except ImportError as error:
+        package = (error.name or module).split(".", maxsplit=1)[0]
+        raise StorageError(
+            f"{what} needs {package}; install it with: pip install 'skyline-viz[{EXTRA}]'"
+        ) from error
+
+
+def file_system(address: str) -> tuple[Any, str]:
+    """The file system of an address, and the path in it.
+
+    Raises:
+        StorageError: Nothing knows the scheme, or what knows it is not installed.
+    """
+    fsspec = needed("fsspec.core", scheme(address))
+    try:
+        found, path = fsspec.url_to_fs(address)
+    except ImportError as error:
+        raise StorageError(f"{address} needs {_installed(error)}") from error
+    except ValueError as error:
+        if "rotocol not known" in str(error):
+            unknown = f"{address} cannot be read: nothing knows {scheme(address)}."
+            raise StorageError(unknown) from error
+        raise StorageError(f"{address} is no address of photos: {plain(error)}.") from error
+    except IsADirectoryError as error:  # what an archive without a file is taken for
+        kind = scheme(address)
+        raise StorageError(
+            f"{address} names no archive; those are named {kind}::FILE, or {kind}FOLDER::FILE."
+        ) from error
+    except Exception as error:  # each library has classes of its own
+        with naming(address):
+            raise error
+        raise
+    return found, str(path)
+
+
+def scheme(address: str) -> str:
+    """How an address begins.
+
+    >>> scheme("s3://photos/alps")
+    's3://'
+    """
+    found = _SCHEME.match(address)
+    return found[0] if found else ""
+
+
+def address_of(found: Any, path: str, below: str) -> str:  # noqa: ANN401 - file systems have no types
+    """The address of a path that a listing gave.
+
+    Args:
+        found: The file system.
+        path: The path in it.
+        below: The address that was listed, whose outer archives and caches go along.
+    """
+    whole = str(found.unstrip_protocol(path))
+    _, chain, around = below.partition("::")
+    return f"{whole}{chain}{around}"
+
+
+@contextmanager
+def naming(address: str) -> Iterator[None]:
+    """Turn whatever a storage raises into a sentence about an address."""
+    try:
+        yield
+    except StorageError:
+        raise
+    except FileNotFoundError as error:
+        raise StorageError(f"{address} does not exist.") from error
+    except PermissionError as error:
+        raise StorageError(f"{address} may not be read.") from error
+    except Exception as error:  # each library has classes of its own
+        raise StorageError(f"{address} cannot be read: {plain(error)}.") from error
+
+
+def plain(error: BaseException) -> str:
+    """What a library said, on one line, short and without its names for things."""
+    text = " ".join(str(error).split()) or type(error).__name__
+    text = re.sub(r"^An error occurred \((\w+)\).*?: *", r"\1, ", text)
+    return text.rstrip(". ")[:200]
+
+
+def _installed(error: ImportError) -> str:
+    """The package that is missing, which fsspec says in a sentence, and how to get it."""
+    said = re.search(r"[Ii]nstall (?:the )?[\"'`]?([\w-]+)", str(error))
+    package = said[1] if said else error.name or "a library"
+    ours = next((one for one in _OURS if one in str(error)), None)
+    if ours:
+        return f"{ours}; install it with: pip install 'skyline-viz[{EXTRA}]'"
+    return f"{package}; install it with: pip install {package}"

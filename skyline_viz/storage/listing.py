@@ -1,0 +1,80 @@
+"""The photos at an address: one file, or all below a folder, a prefix or in an archive."""
+
+from __future__ import annotations
+
+import posixpath
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from skyline_viz.picture_files.kinds import PHOTO_SUFFIXES
+from skyline_viz.storage.addresses import StorageError, address_of, file_system, naming
+
+_STAMPS = ("ETag", "etag", "md5Hash", "crc32c", "content_md5", "md5", "CRC")
+"""What storages tell of a file's content, without its being read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """A file of a storage."""
+
+    address: str
+    """Where it is."""
+
+    size: int | None = None
+    """Its bytes, where the listing tells."""
+
+    stamp: str = ""
+    """What the storage says of its content, which changes with it; empty where it says nothing."""
+
+
+def photos_at(address: str) -> Iterator[Listed]:
+    """The photos at an address, folder by folder and by name.
+
+    What ends like a photo is one, and nothing is asked about it. All else is a folder, in which
+    names that end like photos count and hidden ones do not, as deep as it goes.
+
+    Raises:
+        StorageError: It holds no photo, is missing, or cannot be listed.
+    """
+    found, path = file_system(address)
+    if _is_photo(address.partition("::")[0]):
+        yield Listed(address)
+        return
+    some = False
+    folders = [path]
+    while folders:
+        place = folders.pop()
+        with naming(address):  # not fsspec's walk, which passes over folders that may not be read
+            inside = sorted(found.ls(place, detail=True), key=lambda about: str(about["name"]))
+        deeper = []
+        for about in inside:
+            name = str(about["name"]).rstrip("/")
+            if name.strip("/") == place.strip("/") or _is_hidden(name):
+                continue
+            if about["type"] == "directory":
+                deeper.append(name)
+            elif _is_photo(name):
+                some = True
+                yield Listed(address_of(found, name, address), _size(about), _stamp(about))
+        folders += reversed(deeper)
+    if not some:
+        raise StorageError(f"{address} holds no photograph.")
+
+
+def _is_hidden(name: str) -> bool:
+    return posixpath.basename(name).startswith(".")
+
+
+def _is_photo(name: str) -> bool:
+    last = name.split("?", 1)[0].rsplit("/", 1)[-1]
+    return posixpath.splitext(last)[1].lower() in PHOTO_SUFFIXES
+
+
+def _size(about: Mapping[str, object]) -> int | None:
+    size = about.get("size")
+    return size if isinstance(size, int) else None
+
+
+def _stamp(about: Mapping[str, object]) -> str:
+    """What is told of the content; an empty text rather than a time, which says little."""
+    return next((f"{name} {about[name]}" for name in _STAMPS if about.get(name)), "")

@@ -1,0 +1,142 @@
+"""A cluster of two: order, bad photos, lost workers, other versions, and what listens."""
+
+import os
+import signal
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import psutil
+import pytest
+
+from skyline_viz.photo import PhotoError
+from skyline_viz.running import cluster as module
+from skyline_viz.running.batch import BatchError, Failure
+from skyline_viz.running.cluster import ClusterError, cluster_at
+from skyline_viz.storage.addresses import StorageError
+from skyline_viz.system.notes import heard_by, note
+
+
+@dataclass(frozen=True)
+class Photo:
+    name: str
+
+
+def work(folder, task):
+    """What a worker does: it leaves a mark, fails, dies, or notes something."""
+    with Path(folder, task.name).open("a") as file:
+        file.write("x")
+    if task.name == "bad":
+        raise PhotoError("bad is empty (0 bytes).")
+    if task.name == "full":
+        raise OSError(28, "No space left on device")
+    if task.name == "noted":
+        note("noted is odd.")
+    if task.name == "deadly" or (task.name == "once" and Path(folder, "once").stat().st_size == 1):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return f"{task.name} done"
+
+
+@pytest.fixture(scope="module")
+def two():
+    with cluster_at("local:2") as cluster:
+        yield cluster
+
+
+def marks(folder):
+    return {path.name: path.stat().st_size for path in Path(folder).iterdir()}
+
+
+def test_values_come_in_order_and_bad_photos_are_passed(two, tmp_path):
+    names = [f"p{number}" for number in range(30)]
+    names[7], names[11] = "bad", "noted"
+    heard = []
+    with heard_by(heard.append):
+        found = list(two.run(partial(work, tmp_path), [*map(Photo, names)]))
+    wanted = [f"{name} done" for name in names]
+    wanted[7] = Failure("bad", "bad is empty (0 bytes).")
+    assert found == wanted
+    assert heard == ["noted is odd."]
+    assert set(marks(tmp_path).values()) == {1}
+
+
+def test_it_is_watched_from_this_machine_alone(two):
+    assert two.link.startswith("http://127.0.0.1:")
+    process = psutil.Process()
+    for one in (process, *process.children(recursive=True)):
+        for connection in one.net_connections("inet"):
+            if connection.status == psutil.CONN_LISTEN:
+                assert connection.laddr.ip in ("127.0.0.1", "::1")
+
+
+def test_a_worker_that_is_lost_costs_its_photos_only(two, tmp_path):
+    names = ["once", *(f"p{number}" for number in range(40))]
+    found = list(two.run(partial(work, tmp_path), [*map(Photo, names)]))
+    assert found == [f"{name} done" for name in names]
+    again = {name for name, times in marks(tmp_path).items() if times > 1}
+    assert "once" in again
+    lost = module._A_THREAD * module._MOST_A_TASK * 2
+    assert len(again) <= lost
+
+
+def test_a_photo_of_which_workers_die_fails_and_no_other_one(two, tmp_path):
+    names = [*(f"p{number}" for number in range(12)), "deadly"]
+    two.client.run_on_scheduler(_forgive, 0)
+    found = list(two.run(partial(work, tmp_path), [*map(Photo, names)]))
+    assert found[:-1] == [f"{name} done" for name in names[:-1]]
+    died = "1 workers died of it, one by one, probably for want of memory"
+    assert found[-1] == Failure("deadly", died)
+
+
+def _forgive(times, dask_scheduler):
+    dask_scheduler.allowed_failures = times
+
+
+def test_a_full_disk_ends_it(two, tmp_path):
+    with pytest.raises(OSError, match="No space left"):
+        list(two.run(partial(work, tmp_path), [Photo("full")]))
+
+
+def test_what_cannot_be_sent_is_named(two):
+    with pytest.raises(BatchError, match="cannot be sent"):
+        list(two.run(lambda task: task, [Photo("a")]))
+
+
+def test_work_of_other_versions_is_refused_by_workers(two, tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "versions", lambda: {**module._versions(), "numpy": "1.0"})
+    with pytest.raises(BatchError, match=r"a worker has numpy .*, and this program 1\.0; install"):
+        list(two.run(partial(work, tmp_path), [Photo("a")]))
+
+
+def test_a_cluster_of_other_versions_is_refused(two, monkeypatch):
+    monkeypatch.setattr(module, "versions", module.versions)
+    told = {"tcp://w:1": {**module.versions(), "skyline-viz": "0.0"}}
+    with pytest.raises(ClusterError, match=r"^the worker tcp://w:1 has skyline-viz 0\.0, and this"):
+        module._check(told)
+    missing = ModuleNotFoundError("No module named 'skyline_viz'", name="skyline_viz")
+    with pytest.raises(ClusterError, match=r"^the worker tcp://w:1 has no skyline_viz; install"):
+        module._check({"tcp://w:1": missing})
+
+
+@pytest.mark.parametrize("where", ["", "local", "local:0", "host", "tcp://host", "http://h:1"])
+def test_what_is_no_cluster_is_refused(where):
+    with pytest.raises(ClusterError, match=r"^a cluster is tcp://HOST:PORT, "), cluster_at(where):
+        pass
+
+
+def test_where_nobody_answers_is_named(monkeypatch):
+    monkeypatch.setattr(module, "_PATIENCE", "200ms")
+    with (
+        pytest.raises(ClusterError, match=r"^no cluster answers at tcp://127\.0\.0\.1:9\.$"),
+        cluster_at("tcp://127.0.0.1:9"),
+    ):
+        pass
+
+
+def test_without_dask_the_extra_is_named(monkeypatch):
+    def missing(module, what):
+        raise StorageError(f"{what} needs distributed; install it with: pip install x")
+
+    monkeypatch.setattr(module, "needed", missing)
+    with pytest.raises(StorageError, match="a cluster needs distributed"), cluster_at("local:2"):
+        pass

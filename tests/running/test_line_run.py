@@ -1,0 +1,116 @@
+"""Detecting into a table: each photo once, nothing done twice, whatever happens between."""
+
+from functools import partial
+
+import pyarrow.parquet as pq
+import pytest
+
+import skyline_viz as sv
+from skyline_viz.running import line_run
+from skyline_viz.running.batch import run
+from skyline_viz.running.line_run import detect_into
+from skyline_viz.running.line_store import store_of
+from skyline_viz.storage.stored_photo import StoredPhoto
+from testing.programs.commands import scene, write_scene
+
+ONE_BY_ONE = partial(run, workers=1)
+
+
+@pytest.fixture
+def photos(tmp_path):
+    return [StoredPhoto(str(write_scene(tmp_path / f"p{at}.png", at))) for at in range(4)]
+
+
+@pytest.fixture
+def detected(monkeypatch):
+    """The names of photos that were detected."""
+    names, plain = [], line_run.found_row
+
+    def found_row(name, *more):
+        names.append(name.rsplit("/", 1)[-1])
+        return plain(name, *more)
+
+    monkeypatch.setattr(line_run, "found_row", found_row)
+    return names
+
+
+def rows(table):
+    return {row["photo"].rsplit("/", 1)[-1]: row for row in pq.read_table(table).to_pylist()}
+
+
+def test_a_table_holds_each_photo_once_in_order(photos, tmp_path):
+    table = tmp_path / "t.parquet"
+    done = detect_into(table, [*photos, photos[1]], sv.Detector(), ONE_BY_ONE, {"run": 1})
+    assert (done.photos, done.known, done.failures) == (4, 0, [])
+    told = pq.read_table(table).to_pylist()
+    assert [row["photo"] for row in told] == [photo.name for photo in photos]
+    line = sv.Detector().detect(scene(2)[0]).skyline
+    assert told[2]["rows"] == line.rows.tolist()
+    assert not store_of(table).exists()
+
+
+def test_what_is_done_is_not_done_again_and_what_has_changed_is(photos, tmp_path, detected):
+    table = tmp_path / "t.parquet"
+    detect_into(table, photos[:3], sv.Detector(), ONE_BY_ONE, {})
+    before = rows(table)
+    write_scene(tmp_path / "p1.png", 7)
+    detected.clear()
+    done = detect_into(table, photos, sv.Detector(), ONE_BY_ONE, {})
+    assert (detected, done.known) == (["p1.png", "p3.png"], 2)
+    after = rows(table)
+    assert [after[name] == before[name] for name in ("p0.png", "p1.png", "p2.png")] == [1, 0, 1]
+    detected.clear()
+    other = sv.Detector(config=sv.DetectorConfig(delta=2))
+    assert detect_into(table, photos, other, ONE_BY_ONE, {}).known == 0
+    assert len(detected) == 4
+
+
+def test_a_run_that_was_interrupted_goes_on(photos, tmp_path, detected):
+    table = tmp_path / "t.parquet"
+
+    def interrupted(function, tasks):
+        for number, outcome in enumerate(run(function, tasks, workers=1)):
+            yield outcome
+            if number == 1:
+                raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        detect_into(table, photos, sv.Detector(), interrupted, {})
+    assert not table.exists()
+    done = detect_into(table, photos, sv.Detector(), ONE_BY_ONE, {})
+    assert done.known == 2
+    assert detected == ["p0.png", "p1.png", "p2.png", "p3.png"]
+    assert len(rows(table)) == 4
+
+
+def test_photos_that_fail_are_named_and_tried_again(photos, tmp_path, detected):
+    table = tmp_path / "t.parquet"
+    whole = (tmp_path / "p2.png").read_bytes()
+    (tmp_path / "p2.png").write_bytes(b"")
+    done = detect_into(table, photos, sv.Detector(), ONE_BY_ONE, {})
+    assert [str(one) for one in done.failures] == [f"{photos[2].name} is empty (0 bytes)."]
+    assert rows(table)["p2.png"]["error"] == f"{photos[2].name} is empty (0 bytes)."
+    (tmp_path / "p2.png").write_bytes(whole)
+    detected.clear()
+    assert detect_into(table, photos, sv.Detector(), ONE_BY_ONE, {}).known == 3
+    assert detected == ["p2.png"]
+    assert rows(table)["p2.png"]["error"] is None
+
+
+def test_a_stamp_spares_the_download(photos, tmp_path, monkeypatch, detected):
+    table = tmp_path / "t.parquet"
+    stamped = [StoredPhoto(photo.name, stamp="ETag 1") for photo in photos]
+    detect_into(table, stamped, sv.Detector(), ONE_BY_ONE, {})
+    asked = []
+
+    def listed(function, tasks):
+        asked.extend(task.name for task in tasks)
+        return run(function, tasks, workers=1)
+
+    assert detect_into(table, stamped, sv.Detector(), listed, {}).known == 4
+    assert asked == []
+    detected.clear()
+    moved = [StoredPhoto(photo.name, stamp="ETag 2") for photo in photos]
+    assert detect_into(table, moved, sv.Detector(), listed, {}).known == 4
+    assert (len(asked), detected) == (4, [])  # downloaded, and found to be the same
+    assert {row["stamp"] for row in rows(table).values()} == {"ETag 2"}

@@ -1,0 +1,80 @@
+"""Addresses: what is one, and the sentences about those that lead nowhere."""
+
+import sys
+
+import fsspec.core
+import pytest
+
+from skyline_viz.storage import addresses
+from skyline_viz.storage.addresses import StorageError, file_system, is_address, naming, plain
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["s3://b/k.jpg", "gs://b", "https://host/a.jpg", "zip://a::s3://b/c.zip", "memory://a"],
+)
+def test_what_has_a_scheme_is_an_address(text):
+    assert is_address(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["a.jpg", "/a/b", "./s3/a", "C:/photos", "C:\\photos", "a:b", "@list"]
+)
+def test_what_has_none_is_a_path(text):
+    assert not is_address(text)
+
+
+def test_an_unknown_scheme_is_named():
+    with pytest.raises(StorageError, match=r"^foo://x cannot be read: nothing knows foo://\.$"):
+        file_system("foo://x")
+
+
+def test_an_archive_without_a_file_is_explained():
+    with pytest.raises(StorageError, match=r"names no archive; .* zip://::FILE"):
+        file_system("zip:///photos.zip")
+
+
+def test_what_is_not_installed_is_named_with_how_to_get_it(monkeypatch):
+    def missing(name):
+        raise ImportError("Install s3fs to access S3")
+
+    monkeypatch.setattr(fsspec.core, "get_filesystem_class", missing, raising=False)
+    monkeypatch.setattr(fsspec.core, "filesystem", missing)
+    with pytest.raises(StorageError, match=r"needs s3fs; .*pip install 'skyline-viz\[cluster\]'"):
+        file_system("s3://photos")
+
+
+def test_a_library_outside_the_extra_is_named(monkeypatch):
+    def missing(*_):
+        raise ImportError("Install adlfs to access Azure Datalake Gen2 and Azure Blob Storage")
+
+    monkeypatch.setattr(fsspec.core, "url_to_fs", missing)
+    with pytest.raises(StorageError, match=r"^abfs://a needs adlfs; .*: pip install adlfs$"):
+        file_system("abfs://a")
+
+
+def test_without_fsspec_the_extra_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "fsspec.core", None)
+    with pytest.raises(StorageError, match=r"^s3:// needs fsspec; .*skyline-viz\[cluster\]'$"):
+        file_system("s3://photos")
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (FileNotFoundError(2, "no"), "a://b does not exist."),
+        (PermissionError(1, "Forbidden"), "a://b may not be read."),
+        (RuntimeError("odd\nthing."), "a://b cannot be read: odd thing."),
+        (StorageError("as it is."), "as it is."),
+    ],
+)
+def test_errors_of_a_storage_become_sentences(error, said):
+    with pytest.raises(StorageError) as raised, naming("a://b"):
+        raise error
+    assert str(raised.value) == said
+
+
+def test_words_of_libraries_are_left_out():
+    error = RuntimeError("An error occurred (SlowDown) when calling the GetObject operation: Wait.")
+    assert plain(error) == "SlowDown, Wait"
+    assert addresses.plain(TimeoutError()) == "TimeoutError"

@@ -1,0 +1,77 @@
+"""The photos at an address."""
+
+import zipfile
+
+import fsspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from skyline_viz.storage.addresses import StorageError
+from skyline_viz.storage.fetching import fetch
+from skyline_viz.storage.listing import Listed, photos_at
+
+KEYS = ["b.jpg", "a/z.PNG", "a/deep/er/x.tif", "a/note.txt", ".hidden.jpg", ".trash/y.jpg", "c.csv"]
+FOUND = ["b.jpg", "a/z.PNG", "a/deep/er/x.tif"]
+
+
+def test_photos_of_a_bucket_are_listed_with_their_size_and_stamp(s3):
+    files = fsspec.filesystem("s3")
+    for key in KEYS:
+        files.pipe(f"photos/in/{key}", key.encode())
+    found = list(photos_at("s3://photos/in"))
+    assert [one.address for one in found] == [f"s3://photos/in/{key}" for key in FOUND]
+    assert [one.size for one in found] == [len(key) for key in FOUND]
+    assert all(one.stamp.startswith("ETag") for one in found)
+    assert len({one.stamp for one in found}) == 3
+    assert s3.downloads == []
+
+
+def test_a_stamp_changes_with_the_content(s3):
+    files = fsspec.filesystem("s3")
+    files.pipe("photos/in/a.jpg", b"one")
+    (before,) = photos_at("s3://photos/in")
+    files.pipe("photos/in/a.jpg", b"two")
+    (after,) = photos_at("s3://photos/in")
+    assert before.stamp != after.stamp
+
+
+@pytest.mark.parametrize("inside", ["", "a"])
+def test_photos_of_an_archive_are_fetched_by_the_addresses_of_its_listing(tmp_path, inside):
+    with zipfile.ZipFile(tmp_path / "all.zip", "w") as archive:
+        for key in KEYS:
+            archive.writestr(key, key)
+    found = list(photos_at(f"zip://{inside}::file://{tmp_path}/all.zip"))
+    wanted = [key for key in FOUND if key.startswith(inside)]
+    assert [fetch(one.address, one.size).decode() for one in found] == wanted
+    assert all(one.stamp.startswith("CRC") for one in found)
+
+
+def test_an_address_of_a_photo_is_that_photo_and_nothing_is_asked():
+    assert list(photos_at("https://nowhere.invalid/a.jpg?size=big")) == [
+        Listed("https://nowhere.invalid/a.jpg?size=big")
+    ]
+
+
+def test_a_place_without_photos_and_one_that_is_missing_are_named(memory):
+    memory.pipe("/in/a.txt", b"a")
+    with pytest.raises(StorageError, match=r"^memory://in holds no photograph\.$"):
+        list(photos_at("memory://in"))
+    with pytest.raises(StorageError, match=r"^memory://gone does not exist\.$"):
+        list(photos_at("memory://gone"))
+
+
+@given(
+    st.sets(st.lists(st.text("abé-", min_size=1, max_size=3), min_size=1, max_size=4).map(tuple))
+)
+def test_every_photo_is_listed_once_however_deep(keys):
+    files = fsspec.filesystem("memory")
+    wanted = {"/".join(key) + ".jpg" for key in keys} | {"first.jpg"}
+    try:
+        for key in wanted:
+            files.pipe(f"/in/{key}", b"x")
+        found = [one.address for one in photos_at("memory://in")]
+        assert sorted(found) == sorted(f"memory:///in/{key}" for key in wanted)
+    finally:
+        files.store.clear()
+        files.pseudo_dirs[:] = [""]
