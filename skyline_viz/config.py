@@ -132,7 +132,7 @@ class DetectorConfig:
     @classmethod
     def presets(cls) -> dict[str, "DetectorConfig"]:
         """Configurations that have a name."""
-        return dict(_presets())
+        return {"default": cls(), "paper": cls.paper()}
 
     @classmethod
     def from_file(cls, told: Mapping[str, Any], of: str = "") -> Self:
@@ -205,12 +205,6 @@ class DetectorConfig:
         """
         changes: dict[str, Any] = dict(values)
         return replace(self, **changes)
-
-
-@cache
-def _presets() -> dict[str, DetectorConfig]:
-    """Those that there are, made and checked once: names are sought for every detection."""
-    return {"default": DetectorConfig(), "paper": DetectorConfig.paper()}
 
 
 @cache

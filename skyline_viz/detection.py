@@ -157,6 +157,11 @@ class Detection:
         """The stages by name, in the order in which they were made; read-only."""
         return MappingProxyType({one.name: one for one in self._stages()})
 
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """What the stages hold, in their order, without any of their maps being made."""
+        return tuple(one.quantity for one in self._stages())
+
     def _stages(self) -> Iterator[Stage]:
         yield Stage(EDGES, self.edges, "mask")
         yield Stage(SCORE, self.scores, "edges")

@@ -22,9 +22,12 @@ from skyline_viz.stage import (
     EDGES,
     FUSED,
     ORIENTATION,
+    OURS,
+    PATH,
     SCORE,
     SKY,
     STRENGTH,
+    Quantity,
     Stage,
 )
 from skyline_viz.system.fingerprints import fingerprint, known_as
@@ -78,6 +81,12 @@ class FilterDetection(Detection):
         """``(n,)`` edge pixels in starved bins."""
         starved: Bool = self.bank.starved[self.bins]
         return starved
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """See `Detection.quantities`."""
+        ours = OURS if self.sky is not None else tuple(one for one in OURS if one != SKY)
+        return (*ours, PATH)
 
     def _stages(self) -> Iterator[Stage]:
         if self.sky is not None:

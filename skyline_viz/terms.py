@@ -14,7 +14,6 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, Bool, Int
-from skyline_viz.edges import edge_index
 from skyline_viz.frames.boundary import between_centres, improbable
 from skyline_viz.kernels.nodal import WINDOW, Clear, Improbable, nodal_costs
 
@@ -117,9 +116,11 @@ class EdgeTerm(Term):
 
     def at(self, rows: Places, columns: Places) -> F64:
         """See `Term.at`."""
-        pixels = edge_index(self.edges)[rows, columns]
-        paid: F64 = np.where(pixels >= 0, 1.0, 0.0)
-        paid[pixels >= 0] *= self.of_edges()[pixels[pixels >= 0]]
+        asked = self.edges[rows, columns]
+        paid: F64 = np.where(asked, 1.0, 0.0)
+        places = rows[asked] * np.int64(self.edges.shape[1]) + columns[asked]
+        among = np.searchsorted(np.flatnonzero(self.edges), places)  # no map of all their places
+        paid[asked] *= np.float32(self.weight) * (1 - self.good[among])
         return paid
 
 

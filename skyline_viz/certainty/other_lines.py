@@ -158,8 +158,9 @@ def _found(
     typical = max(_price(cost, link_weight, first) / width, 0.1)
     places = np.arange(width)
     found: list[Int] = []
+    dearer: F32 = np.empty((width, height), np.float32).T  # a column lies together, as in a cost
     for price in _PRICES:
-        dearer: F32 = np.ascontiguousarray(cost.T, np.float32).T.copy(order="K")
+        np.copyto(dearer, cost, casting="same_kind")
         known = first
         for _ in range(_TIMES):
             for away in range(-band, band + 1):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, replace
+from functools import cache
 from itertools import combinations
 from typing import Any
 
@@ -38,7 +39,7 @@ def settings_to_try(found: Detection) -> dict[str, DetectorConfig]:
     }
     presets = {
         f"all settings of {name} (--preset {name})": preset
-        for name, preset in DetectorConfig.presets().items()
+        for name, preset in _presets().items()
         if preset not in (config, *tried.values()) and type(config) is DetectorConfig
     }
     return named | presets
@@ -70,10 +71,16 @@ def flags(config: DetectorConfig, changed: DetectorConfig) -> str:
         >>> flags(DetectorConfig(), DetectorConfig(delta=8, fit_thresholds=False))
         '--config.no-fit-thresholds --config.delta 8'
     """
-    for name, preset in DetectorConfig.presets().items():
+    for name, preset in _presets().items():
         if changed == preset:
             return f"--preset {name}"
     return " ".join(_flag(name, value) for name, value in _differing(config, changed).items())
+
+
+@cache
+def _presets() -> Mapping[str, DetectorConfig]:
+    """The presets, made once: every setting that is tried is compared with them."""
+    return DetectorConfig.presets()
 
 
 def _differing(config: DetectorConfig, changed: DetectorConfig) -> dict[str, Any]:

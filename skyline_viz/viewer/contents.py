@@ -152,5 +152,5 @@ class Contents:
 def _shown(detection: Detection) -> tuple[Quantity, ...]:
     """Stages that have a view: where all pixels are edges, there is nothing to see in these."""
     everywhere = bool(detection.edges.all())
-    stages = [one.quantity for one in detection.stages.values() if one.quantity.tabs]
+    stages = [one for one in detection.quantities if one.tabs]
     return tuple(one for one in stages if not (everywhere and one.name == "edges"))

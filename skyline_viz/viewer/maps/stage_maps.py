@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 import rerun as rr
 
-from skyline_viz.arrays import F32, U8, Bool, Int
+from skyline_viz.arrays import F32, Bool, Int
 from skyline_viz.certainty.search_tables import search_tables
 from skyline_viz.colours import Colour
 from skyline_viz.detection import Detection
@@ -43,6 +43,7 @@ from skyline_viz.viewer.maps.value_maps import (
     FINE,
     ValueMap,
     dense_map,
+    image_of,
     shades,
     sparse_map,
     value_range,
@@ -147,12 +148,15 @@ def _log_stage(
     """
     shape, rows, columns = places
     if stage.legend:
+        # broadened before the map is there, which may be large
+        colours, index = np.unique([one for _, one in stage.legend], axis=0, return_inverse=True)
+        shades_of = np.zeros(shape, np.uint8)
+        shades_of[rows, columns] = (1 + np.ravel(index).astype(np.uint8))[values]
+        log_broad(recording, entity, shades_of, colours.astype(np.uint8))
+        del shades_of
         classes = np.zeros(shape, np.uint16)
         classes[rows, columns] = values + 1
-        recording.log(entity, _words(stage.legend), rr.SegmentationImage(classes))
-        colours, index = np.unique([one for _, one in stage.legend], axis=0, return_inverse=True)
-        table: U8 = np.concatenate([[0], 1 + np.ravel(index)]).astype(np.uint8)
-        log_broad(recording, entity, table[classes], colours.astype(np.uint8))
+        recording.log(entity, _words(stage.legend), image_of(classes))
         if stage.quantity == BIN:
             hues = shades(ORIENTATION, COARSE)
             log_scale(recording, entity, shape, hues, value_range(ORIENTATION))

@@ -62,12 +62,15 @@ class ValueMap:
             entity: Entity path of the map.
             aids: Whether to log what helps to read it, too, see `map_aids`.
         """
+        if aids:
+            self._log_aids(recording, entity)  # first: the map is compressed while others are made
         means = legend(self.quantity, self.low, self.high, self.levels)
-        recording.log(entity, means, _image(self.classes))
-        if not aids:
-            return
+        recording.log(entity, means, image_of(self.classes))
+
+    def _log_aids(self, recording: rr.RecordingStream, entity: str) -> None:
         few = shades(self.quantity, BANDS)
-        log_broad(recording, entity, self._bands(), few, lowest=self.quantity.low_is_bright)
+        if not self.classes.all():  # else nothing is sparse
+            log_broad(recording, entity, self._bands(), few, lowest=self.quantity.low_is_bright)
         colours, ends = shades(self.quantity, COARSE), (self.low, self.high)
         log_scale(recording, entity, self.classes.shape, colours, ends)
 
@@ -79,7 +82,7 @@ class ValueMap:
         return bands
 
 
-def _image(classes: npt.NDArray[np.unsignedinteger[Any]]) -> rr.SegmentationImage:
+def image_of(classes: npt.NDArray[np.unsignedinteger[Any]]) -> rr.SegmentationImage:
     """Classes ``(H, W)`` as Rerun takes them, without the two copies that it makes of an array.
 
     They must not change before the recording has been flushed.
