@@ -23,7 +23,8 @@ class Folds:
     """How photos are dealt into folds."""
 
     folds: int = 0
-    """Folds of a cross-validation, which trains on all folds but the one it tests; 0 is none."""
+    """Folds of a cross-validation, which trains on all folds but the one it tests; 0 is none.
+    Photos that are nearly the same, and frames of a clip, stay in one."""
 
     group: Annotated[str | None, tyro.conf.arg(metavar="{folder,near,PATTERN}")] = None
     """Photos that stay in one fold: those of a folder, those that are nearly the same, or those in
