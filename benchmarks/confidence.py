@@ -65,8 +65,8 @@ def measured(data: Path, models: Path | None) -> str:
     return (
         "## Confidence of a photo\n\nGross misses told from the rest: the area under the curve "
         "(AUROC), over all sources and in each that has gross misses; and after it the rank "
-        "correlation (Spearman) of doubt and A_err. Filters, sky model and "
-        "coefficients have not seen the place. "
+        "correlation (Spearman) of doubt and A_err. Filters, sky model and coefficients have not "
+        "seen the place. "
         f"{small.missing(known)}\n\n{markdown(header, rows)}\n\n{text}"
     )
 

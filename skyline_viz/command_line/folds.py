@@ -23,7 +23,8 @@ class Folds:
     """How photos are dealt into folds."""
 
     folds: int = 0
-    """Folds of a cross-validation, which trains on all folds but the one it tests; 0 is none."""
+    """Folds of a cross-validation, which trains on all folds but the one it tests; 0 is none.
+    Photos that are nearly the same, and frames of a clip, stay in one."""
 
     group: Annotated[str | None, tyro.conf.arg(metavar="{folder,near,PATTERN}")] = None
     """Photos that stay in one fold: those of a folder, those that are nearly the same, or those in
@@ -52,16 +53,16 @@ class Folds:
         Raises:
             ValueError: It is no grouping.
         """
-        from skyline_viz.evaluation import grouped, kept_together
+        from skyline_viz.evaluation import grouped, groups_for, kept_together
 
         asked = None if self.group in (None, "near") else grouped(items, str(self.group))
-        if not (self.folds or self.group == "near"):
+        if self.group == "near":
+            return kept_together(items, workers=workers)
+        if not self.folds:
             return asked
-        groups = kept_together(items, asked, workers=workers)
-        if self.group is None:
+        groups = groups_for(items, self.folds, asked, workers=workers)
+        if asked is None and groups is not None:
             several = {one for one, count in Counter(groups.values()).items() if count > 1}
-            if not several:
-                return None
             names = [name for name, group in groups.items() if group in several]
             which = f"{counted(len(names), 'photo')} in {counted(len(several), 'group')}"
             say(f"kept in one fold, as they are nearly the same or of a clip: {which}.")

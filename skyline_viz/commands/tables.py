@@ -148,6 +148,8 @@ class Tables:
             tested = max(len(results) for results in found.results.values())
             title = f"{name}: {counted(tested, 'photo')}, {self.folds}-fold cross-validation"
             evaluation.write_evaluation(folder, found, about={"dataset": name}, title=title)
+            for note in found.notes:
+                say(f"{name}: {note}")
 
     def _write_tables(self, tables: list[Table]) -> None:
         write_text(self.out / "tables.md", evaluation.markdown(tables))

@@ -102,7 +102,9 @@ def write_picture(path: str | os.PathLike[str], name: str, found: Sequence[Diagn
             said = f"{most.name}: {most.change:+.2f} px on these, {most.change_of_all:+.2f} on all"
             said += f", breaks {most.broken}"
         bars.append(CauseBar(one.title, one.photos, one.a_err, said))
-    write_cause_bars(path, bars, name)
+    seen = sum(bool(one.seen) for one in found)
+    title = f"{name}, {seen} of {len(found)} photos seen in training" if seen else name
+    write_cause_bars(path, bars, title)
 
 
 def in_full(one: Diagnosed) -> str:

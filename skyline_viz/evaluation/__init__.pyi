@@ -7,6 +7,7 @@ from .curves import curve as curve
 from .dealing import deal as deal
 from .dealing import fingerprints as fingerprints
 from .dealing import grouped as grouped
+from .dealing import groups_for as groups_for
 from .dealing import kept_together as kept_together
 from .dealing import read_split as read_split
 from .evaluated import Evaluation as Evaluation

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from skyline_viz.datasets.item import Item, listed
 from skyline_viz.datasets.predictions import Predictions
-from skyline_viz.evaluation.dealing import deal, kept_together
+from skyline_viz.evaluation.dealing import deal, groups_for
 from skyline_viz.evaluation.evaluated import Evaluation
 from skyline_viz.evaluation.folds import Folds
 from skyline_viz.evaluation.results import PhotoResult
@@ -88,7 +88,7 @@ def cross_validate(
     """Test each photo with what was learned from the photos of all other folds.
 
     Photos are dealt one after the other in the order of their names. Those that are nearly the
-    same stay in one fold, see `kept_together`; whatever else resembles each other belongs into one
+    same stay in one fold, see `groups_for`; whatever else resembles each other belongs into one
     fold, too, see `deal`. Methods that learn nothing are tested as they are, and so are
     the lines of somebody else. What a family of methods learns, it learns once; a method that
     learns from sums, as our detector does, looks at each photo once, however many folds there are.
@@ -177,7 +177,7 @@ def assign(
         nothing: dict[str, list[Failure]] = {one.name: [] for one in methods}
         return Assigned(tasks, {one.name: one for one in methods}, nothing, {}, seed)
     if isinstance(folds, int):
-        dealt = deal(items, folds, kept_together(items, workers=workers))
+        dealt = deal(items, folds, groups_for(items, folds, workers=workers))
     else:
         dealt = dict(folds)
     by_name = tuple(sorted((one for one in items if one.name in dealt), key=lambda one: one.name))

@@ -143,6 +143,35 @@ def kept_together(
     return joined
 
 
+def groups_for(
+    items: Iterable[Item],
+    folds: int,
+    groups: Mapping[str, str] | None = None,
+    *,
+    workers: int = 1,
+) -> Mapping[str, str] | None:
+    """Groups to deal into folds: those of `kept_together`, if there are enough of them.
+
+    A data set of copies has too few. Its folds are then dealt as was asked, and the results say
+    that photos were seen in training.
+
+    Args:
+        items: The photos.
+        folds: Number of folds.
+        groups: What stays together besides, see `grouped`.
+        workers: Number of processes, see `batch.run`.
+
+    Returns:
+        The group of each photo by its name; None where each is one of its own.
+    """
+    found = listed(items)
+    near = kept_together(found, groups, workers=workers)
+    number = len(set(near.values()))
+    if number < folds or (groups is None and number == len(found)):
+        return groups
+    return near
+
+
 def read_split(path: str | os.PathLike[str], items: Sequence[Item]) -> dict[str, int]:
     """The fold of each photo as a file says that `write_split` or somebody else wrote.
 

@@ -118,7 +118,7 @@ def write_errors(path: str | os.PathLike[str], found: Evaluation) -> None:
     visible.
     """
     arrays = {
-        f"{method}/{result.name}": result.errors
+        f"{method}/{result.name}".encode(errors="backslashreplace").decode(): result.errors
         for method, results in found.results.items()
         for result in results
         if result.errors is not None

@@ -56,15 +56,14 @@ def seen_by(part: str, seen: Mapping[str, str]) -> list[str]:
 def notes(method: str, seen: Mapping[str, str], *, folds: bool = False) -> list[str]:
     """What there is to say of photos that were seen in training, in sentences.
 
-    >>> notes("mine.npz", {"a": "training: exact", "b": "training: clip"})
-    ['mine.npz was trained on all 2 photos, so this is no test; see --folds.']
-    >>> notes("mine.npz", {"a": "", "b": "training: clip"})[0][:45]
-    'mine.npz has seen 1 of 2 photos in training, '
-
     Args:
         method: Name of the method.
         seen: What `seen_in_training` says of each photo, by its name.
         folds: Whether that is a cross-validation.
+
+    Examples:
+        >>> notes("mine.npz", {"a": "training: exact", "b": "training: clip"})
+        ['mine.npz was trained on all 2 photos, so this is no test; see --folds.']
     """
     told = []
     trained, sky = seen_by(TRAINING, seen), seen_by(SKY, seen)

@@ -99,10 +99,14 @@ def _line(results: Sequence[PhotoResult]) -> list[str]:
 
 
 def _figures(summary: Summary, interval: Interval | None) -> list[tuple[str, str]]:
-    sure = f" (95 % interval: {interval[0]:.2f} to {interval[1]:.2f})" if interval else ""
+    sure = []
+    if interval:
+        told = f"{interval.low:.2f} to {interval.high:.2f} px"
+        sure = [("A_err, 95 % interval of the mean", told)]
     return [
         ("photos", f"{summary.photos}"),
-        ("A_err, mean", f"{summary.mean:.2f} px{sure}"),
+        ("A_err, mean", f"{summary.mean:.2f} px"),
+        *sure,
         ("A_err, standard deviation", f"{summary.standard_deviation:.2f} px"),
         ("A_err, median", f"{summary.median:.2f} px"),
         ("A_err, 75th, 90th and 95th percentile", _percentiles(summary)),

@@ -74,7 +74,8 @@ class ProgressBar:
         minutes = seconds / 60
         left = minutes / self._done * (self._total - self._done)
         done = f"{self._done} of {self._total} {self._title}"
-        print(f"{done} after {minutes:.0f} min, about {left:.0f} min left", file=sys.stderr)
+        told = f"{done} after {minutes:.0f} min, about {left:.0f} min left"
+        sys.stderr.write(f"{printable(told)}\n")
         sys.stderr.flush()
 
     def _show(self) -> "tuple[Progress, TaskID]":

@@ -65,7 +65,11 @@ def fingerprint(photo: U8, name: str = "") -> str:
     grid = cv2.resize(grey, (_SIDE, _SIDE), interpolation=cv2.INTER_AREA).astype(np.float32)
     bits = grid - cv2.GaussianBlur(grid, (0, 0), _AROUND) > _BRIGHTER
     clip = clip_of(name)
-    named = hashlib.sha256(f"{clip} {photo.shape}".encode()).hexdigest() if clip else _NO_CLIP
+    named = (
+        hashlib.sha256(f"{clip} {photo.shape}".encode(errors="replace")).hexdigest()
+        if clip
+        else _NO_CLIP
+    )
     return pixels.hexdigest()[:_DIGEST] + np.packbits(bits).tobytes().hex() + named[:_DIGEST]
 
 

@@ -63,7 +63,11 @@ def test_a_split_says_what_it_leaves_out(items, tmp_path, capsys):
 
 
 def test_too_many_folds_are_refused(items):
+    with pytest.raises(ValueError, match="from 2 to the 4 photos, not 5"):
+        Folds(folds=5).dealt(items, Folds(folds=5).groups(items))
+    near = Folds(folds=4, group="near")
     with pytest.raises(ValueError, match="from 2 to the 3 groups of the 4 photos, not 4"):
-        Folds(folds=4).dealt(items, Folds(folds=4).groups(items))
+        near.dealt(items, near.groups(items))
+    assert Folds(folds=4).groups(items) is None  # copies are told by the results then
     with pytest.raises(ValueError, match="photos, not 1"):
         Folds(folds=1).dealt([LoadedItem("a", np.zeros((4, 4, 3), np.uint8))], None)

@@ -8,7 +8,8 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.evaluation import FILES
-from skyline_viz.sky_model import TRAINED
+from skyline_viz.sky_model import SEEN
+from skyline_viz.system.fingerprints import fingerprint, packed
 from testing.networks import bright_sky
 from testing.programs.commands import files, write_scenes
 
@@ -44,16 +45,17 @@ def test_testing_on_the_training_photos_is_noticed(say, hills):
     assert say("train", hills, "--out", "b.npz")[0] == 0
     status, _, err = say("evaluate", hills, "--bank", "b.npz")
     assert status == 0
-    said = "skyline-viz: b.npz was trained on hills, so this is no test; see --folds.\n"
+    said = "skyline-viz: b.npz was trained on all 4 photos, so this is no test; see --folds.\n"
     assert err == said
     assert say("evaluate", hills, "--bank", "b.npz", "--method", "edges")[2] == said
     assert say("evaluate", hills, "--method", "edges", "b.npz")[2] == said
 
 
 def test_a_sky_model_that_saw_the_photos_is_noticed_in_folds_too(say, hills, tmp_path):
-    notes = {TRAINED: '{"photos": {"hills": 4}}'}
+    photos = [sv.read_photo(file) for file in (hills / "images").iterdir()]
+    notes = {SEEN: packed(map(fingerprint, photos))}
     (tmp_path / "sky.onnx").write_bytes(bright_sky(notes=notes))
-    saw = "the sky model of default:sky=sky.onnx was trained on hills"
+    saw = "the sky model of default:sky=sky.onnx was trained on all 4 photos"
     assert saw in say("evaluate", hills, "--sky", "sky.onnx", "--folds", "2")[2]
     assert saw in say("evaluate", hills, "--sky", "sky.onnx")[2]
     assert say("evaluate", hills, "--method", "default:sky_weight=0", "--folds", "2")[2] == ""

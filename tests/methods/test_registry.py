@@ -244,11 +244,11 @@ def test_a_method_is_not_tested_on_what_it_learned_from_without_a_word(folder, t
     assert main(["train", str(folder), "--method", "svm-dcsi", "--out", file]) == 0
     capsys.readouterr()
     assert main(["evaluate", str(folder), "--method", file]) == 0
-    assert "was trained on hills, so this is no test" in capsys.readouterr().err
+    assert "was trained on all 4 photos, so this is no test" in capsys.readouterr().err
     assert main(["evaluate", str(folder), "--method", file, "--folds", "2"]) == 2
     assert "would be trained anew" in capsys.readouterr().err
     assert main(["evaluate", str(folder), "--method", f"svm-mdcsi:model={file}"]) == 0
-    assert "was trained on hills, so this is no test" in capsys.readouterr().err
+    assert "was trained on all 4 photos, so this is no test" in capsys.readouterr().err
 
 
 def test_a_network_is_what_its_file_holds(tmp_path):

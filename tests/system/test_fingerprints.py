@@ -5,7 +5,15 @@ import numpy as np
 import pytest
 
 from skyline_viz.rendering import render
-from skyline_viz.system.fingerprints import fingerprint, is_fingerprint, known_as, near_groups
+from skyline_viz.system.fingerprints import (
+    clip_of,
+    fingerprint,
+    known_as,
+    near_groups,
+    packed,
+    telling,
+    unpacked,
+)
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +42,29 @@ def test_copies_are_a_group(photos):
     assert near_groups(prints) == [place - place % 2 for place in range(len(prints))]
 
 
-def test_only_fingerprints_are_taken_for_such(photos):
-    assert is_fingerprint(fingerprint(photos[0]))
-    for other in ("", "a" * 95, "g" * 96, 4, None):
-        assert not is_fingerprint(other)
+def test_files_keep_each_once_and_give_them_back(photos):
+    prints = [fingerprint(one, "clip1-2") for one in photos]
+    assert unpacked(packed([*prints, *prints])) == tuple(sorted(prints))
+    assert unpacked(packed([])) == ()
+    for other in ("a", "a" * 95, "?" * 96, 4, None, packed(prints)[:-4]):
+        with pytest.raises(ValueError, match=r"\w"):
+            unpacked(other)
+
+
+def test_frames_of_a_clip_are_known_by_names_and_size(photos):
+    one, other = photos[:2]
+    learned = [fingerprint(one, "day/clip7-001.png")]
+    assert known_as(fingerprint(other, "elsewhere/clip7-9"), learned) == "clip"
+    assert known_as(fingerprint(other[:-1], "clip7-002"), learned) == ""
+    assert known_as(fingerprint(other, "clip8-001"), learned) == ""
+    assert known_as(fingerprint(other), learned) == ""
+    assert clip_of("IMG_2195.JPG") == clip_of("R_GImag0001") == clip_of("clip7-") == ""
+    assert len(fingerprint(one, "clip\udcfc1-2")) == len(learned[0])
+
+
+def test_a_name_that_all_have_tells_of_no_clip(photos):
+    prints = [fingerprint(one, f"set2_{place}") for place, one in enumerate(photos)]
+    assert near_groups(prints) == [*range(len(photos))]
+    two = [*prints, fingerprint(photos[0][:, ::-1].copy(), "set3_1")]
+    assert near_groups(two) == [0] * len(photos) + [len(photos)]
+    assert telling(two) == tuple(two)

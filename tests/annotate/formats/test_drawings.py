@@ -7,11 +7,8 @@ from annotate.formats.drawings import (
     Shape,
     Wanted,
     labels_found,
-    list_of,
-    side_of,
-    size_of_drawing,
-    text_of,
 )
+from skyline_viz.datasets.coco import list_of, side_of, size_of_drawing, text_of
 from skyline_viz.datasets.outlines import FormatError
 
 
