@@ -318,7 +318,9 @@ def test_several_photos_share_the_pixels(photos, tmp_path, capsys):
 
 
 def test_the_list_and_the_start_of_labelling_say_what_is_too_large(photos, monkeypatch, capsys):
-    monkeypatch.setattr("annotate.commands.open.serve", lambda bench, *_, **__: bench.close())
+    monkeypatch.setattr(
+        "annotate.commands.open.serve", lambda benches, *_, **__: benches[0].close()
+    )
     words = ["open", str(photos), "--annotator", "ann", "--max-megapixels", "0.005"]
     try:
         assert label(words) == 0

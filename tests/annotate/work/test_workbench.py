@@ -15,7 +15,7 @@ def folder(tmp_path):
 
 def test_the_least_certain_photo_comes_first(folder):
     bench = workbench(folder, order="confidence")
-    propose_all(bench)
+    propose_all([bench])
     confidences = [card.confidence for card in bench.cards()]
     assert None not in confidences
     assert confidences == sorted(confidences)
