@@ -109,3 +109,20 @@ def test_columns_keep_where_they_are_from_also_after_somebody_has_decided(tmp_pa
     bench.close()
     found = labels(folder)["hill-0.png"]
     assert set(found.origin[:10]) == set(found.origin[60:]) == {0}  # `proposal`
+
+
+def test_whoever_works_on_a_photo_meanwhile_keeps_it(folder, monkeypatch):
+    run("consensus", folder)
+    label_named(folder, ["hill-1.png"], 10, "bob")
+    appended = Store.append_all
+
+    def late(store, wanted):
+        monkeypatch.setattr(Store, "append_all", appended)
+        (label, *_) = [one.label for one, _ in wanted]
+        store.append(label, -1, "anchor", {"column": 3, "row": 4}, store.line(label))
+        return appended(store, wanted)
+
+    monkeypatch.setattr(Store, "append_all", late)
+    assert run("consensus", folder) == 0
+    kept = labels(folder)["hill-1.png"]
+    assert (kept.status, kept.operations[-1]["kind"]) == ("needs review", "anchor")
