@@ -5,9 +5,13 @@ import shutil
 import sqlite3
 from contextlib import closing
 
+import numpy as np
+
 from annotate.cli import main
 from annotate.store.database import NAME
+from annotate.store.labels import Label
 from annotate.store.operations import SetStatus, Straight
+from skyline_viz.skyline import Skyline
 from testing.labelling import workbench
 
 
@@ -90,3 +94,31 @@ def change(folder, statement, *values):
     with closing(sqlite3.connect(folder / NAME)) as database, database:
         database.execute("PRAGMA ignore_check_constraints = ON")
         return database.execute(statement, values).fetchone()
+
+
+def made(rows, annotator="ann", number=1, visible=None, origin=1, **other):
+    """An accepted label of a made-up photo with these rows; other parts of it as they are given."""
+    rows = np.asarray(rows, np.float32)
+    width = len(rows)
+    origins = (
+        np.full(width, origin, np.uint8) if np.isscalar(origin) else np.array(origin, np.uint8)
+    )
+    parts = {
+        "name": "hill.png",
+        "digest": "aa",
+        "status": "accepted",
+        "tags": (),
+        "operations": (),
+        "seconds": 1.0,
+        "detector": "",
+        "blind": False,
+    }
+    return Label(
+        width=width,
+        height=1000,
+        annotator=annotator,
+        number=number,
+        skyline=Skyline(rows=rows, visible=visible),
+        origin=origins,
+        **(parts | other),
+    )

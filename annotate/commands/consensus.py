@@ -44,7 +44,7 @@ class Consensus:
 
     def run(self) -> int:
         """Write the consensus; return the exit status."""
-        from annotate.store.store import StaleError, Store
+        from annotate.store.store import Store
         from annotate.work.consensus import make_consensus
         from annotate.work.joined import joined
 
@@ -61,12 +61,7 @@ class Consensus:
             raise UsageError(f"a consensus is made of two passes at least, and {there}.")
         labels = [one for one in found.labels if (one.annotator, one.number) in passes]
         with closing(Store(self.folder)) as store:
-            try:
-                outcome = make_consensus(store, labels, self.within)
-            except StaleError:
-                raise UsageError(
-                    "somebody has just changed the consensus, so nothing was written; try again."
-                ) from None
+            outcome = make_consensus(store, labels, self.within)
         tell(f"{counted(len(found.photos), 'photo')} in {self.folder}, passes: {listed(names)}")
         tell(f"Accepted, since all agree within {self.within:g} px: {len(outcome.accepted)}")
         if outcome.rejected:

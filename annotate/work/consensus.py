@@ -16,7 +16,7 @@ from annotate.store.kept_states import Request
 from annotate.store.labels import CONSENSUS, LONGEST_COMMENT, Label, Status, named
 from annotate.store.lines import Line
 from annotate.store.operations import Carry, Consensus, SetStatus
-from annotate.store.store import Store
+from annotate.store.store import StaleError, Store
 from annotate.work.choices import runs_of
 from skyline_viz.arrays import runs
 
@@ -59,7 +59,7 @@ class _Verdict:
 
 
 def make_consensus(store: Store, labels: Iterable[Label], within: float) -> Outcome:
-    """Write the consensus of the photos that were decided in two passes or more.
+    """Write the consensus of the photos that were decided in two passes or more, photo by photo.
 
     Args:
         store: The labels, open for writing.
@@ -67,8 +67,7 @@ def make_consensus(store: Store, labels: Iterable[Label], within: float) -> Outc
         within: Rows by which lines may differ that agree, in pixels.
 
     Raises:
-        StoreError: It cannot be kept; then nothing of it is.
-        StaleError: Somebody has changed the consensus meanwhile; then nothing is kept, either.
+        StoreError: That of a photo cannot be kept; those before it are.
     """
     outcome = Outcome()
     ids = {photo.digest: photo.id for photo in store.find()}
@@ -76,7 +75,6 @@ def make_consensus(store: Store, labels: Iterable[Label], within: float) -> Outc
         (one for one in labels if one.status in ("accepted", "rejected")),
         key=lambda one: (one.name, one.digest, one.annotator, one.number),
     )
-    wanted: list[tuple[Request, Line | None]] = []
     for (name, digest), grouped in groupby(decided, key=lambda one: (one.name, one.digest)):
         of_photo = list(grouped)
         if len(of_photo) < 2 or digest not in ids:
@@ -93,14 +91,17 @@ def make_consensus(store: Store, labels: Iterable[Label], within: float) -> Outc
                 outcome.changed.append(name)
             continue
         verdict = _verdict(of_photo, within)
-        wanted += _requests(label, state, verdict)
+        try:
+            store.append_all(_requests(label, state, verdict))
+        except StaleError:  # somebody works on it just now
+            outcome.kept.append(name)
+            continue
         if verdict.status == "needs review":
             outcome.review.append((name, verdict.comment))
         else:
             {"accepted": outcome.accepted, "rejected": outcome.rejected}[verdict.status].append(
                 name
             )
-    store.append_all(wanted)
     return outcome
 
 

@@ -27,7 +27,7 @@ COMMANDS = (
     "render",
     "demo",
 )
-LABELLING = ("open", "export", "import", "status", "agreement", "backup", "repair")
+LABELLING = ("open", "export", "import", "status", "agreement", "consensus", "backup", "repair")
 PROGRAMS = [(main, COMMANDS), (annotate.cli.main, LABELLING)]
 
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from annotate.agreement.consensus import common
 from testing.examples import examples
-from testing.passes import made
+from testing.labels import made
 
 WIDTH = 12
 lines = st.lists(

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from annotate.agreement.figures import Agreement, by_making, kappa, lean, people
 from annotate.agreement.pairs import Pair, compared
 from testing.examples import examples
-from testing.passes import made
+from testing.labels import made
 
 
 def test_photos_count_alike_whatever_their_width():

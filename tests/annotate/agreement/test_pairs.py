@@ -3,7 +3,7 @@
 import numpy as np
 
 from annotate.agreement.pairs import Pair, compared, most_apart
-from testing.passes import made
+from testing.labels import made
 
 
 def test_only_columns_that_both_see_are_compared():

@@ -6,7 +6,7 @@ import pytest
 from annotate.agreement.pairs import compared
 from annotate.agreement.picture import COLOURS, picture
 from skyline_viz.photo import write_photo
-from testing.passes import made
+from testing.labels import made
 
 PASSES = [("ann", 1), ("bob", 1), ("eve", 1)]
 GREY = 120

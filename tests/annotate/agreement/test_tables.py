@@ -8,7 +8,7 @@ import pytest
 
 from annotate.agreement.pairs import compared
 from annotate.agreement.tables import write_tables
-from testing.passes import made
+from testing.labels import made
 
 PASSES = [("ann", 1), ("bob", 1), ("eve", 2)]
 

@@ -189,7 +189,7 @@ def test_agreement_compares_photos_that_are_there(folder, capsys):
     replaced(folder / "hill-1.jpg", seed=7)
     assert run("agreement", folder) == 0
     said = capsys.readouterr()
-    assert "ann and bob, 1 photo\n" in said.out
+    assert "2 passes, 1 photo accepted in several of them\n" in said.out
     assert "hill-1.jpg (sha256 " in said.err
 
 

@@ -8,7 +8,7 @@ from annotate.store.history import State
 from annotate.store.operations import Consensus, Take
 from annotate.work.choices import choices, nearest_span, spans_apart
 from skyline_viz.skyline import Skyline
-from testing.passes import made
+from testing.labels import made
 
 LINE = Skyline(rows=[10] * 100)
 
