@@ -164,3 +164,11 @@ def test_a_card_that_waits_for_its_pictures_says_so(page):
     said = "one => getComputedStyle(one, '::after').content"
     assert "is being read" in card.evaluate(said)
     page.page.unroute("**/strip?*")
+
+
+def test_both_strips_say_what_they_are(page):
+    for strip, words in (("#strip", "an error is a bump"), ("#margin", "The taller a bar")):
+        box = page.page.locator(strip).bounding_box()
+        x, y = box["x"] + 30, box["y"] + 12  # over the caption, too
+        told = "([x, y]) => document.elementFromPoint(x, y).title"
+        assert words in page.page.evaluate(told, [x, y])
