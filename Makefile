@@ -57,6 +57,7 @@ pictures: .venv/.installed-dev  ## Draw the pictures of the docs again.
 	.venv/bin/skyline-viz gallery sample_data --screenshot docs/gallery.jpg
 	.venv/bin/python -m tools.flag_picture docs
 	.venv/bin/python -m tools.report_picture docs
+	.venv/bin/python -m tools.guideline_pictures
 	.venv/bin/python -m tools.page_pictures docs
 
 samples: .venv/.installed-run  ## Rebuild sample_data, byte for byte.

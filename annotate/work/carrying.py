@@ -8,6 +8,7 @@ from contextlib import suppress
 from annotate.engine.carried import carried_over
 from annotate.engine.edits import EditError
 from annotate.store.database import StoreError
+from annotate.store.labels import NO_SKYLINE
 from annotate.store.opened import read_whole
 from annotate.store.operations import Carry
 from annotate.store.store import Photo, StaleError
@@ -61,6 +62,8 @@ def _accepted_beside(bench: Workbench, photo: Photo) -> Iterator[tuple[Photo, in
     for beside in (*order[max(place - 1, 0) : place], *order[place + 1 : place + 2]):
         card = cards.get(beside)
         if card is None or card.label is None or card.status != "accepted":
+            continue
+        if NO_SKYLINE in card.tags:  # nothing of its line counts
             continue
         if (card.photo.height, card.photo.width) == (photo.height, photo.width):
             yield card.photo, card.label

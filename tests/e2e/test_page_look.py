@@ -140,3 +140,35 @@ def test_what_is_under_the_mouse_is_magnified_while_z_is_held(page):
     page.page.keyboard.up("z")
     settled(page)
     assert pixel(page, "#lines", *beside)[3] == 0
+
+
+def test_at_1024_names_are_whole_and_nothing_is_cut_off(browser, tmp_path):
+    folder = write_hills(tmp_path / "alps", count=1, height=240, width=400)
+    (folder / "hill-0.png").rename(folder / "IMG_2195.png")
+    with served(folder) as client:
+        page = Page(browser, client, viewport={"width": 1024, "height": 768})
+        for place in ("#name", ".item .title"):
+            wide = page.page.locator(place).evaluate("one => one.scrollWidth - one.clientWidth")
+            assert wide == 0
+        header = page.page.locator("header").evaluate("one => one.scrollWidth - one.clientWidth")
+        assert header == 0
+        assert page.page.locator("#help").bounding_box()["x"] < 1024 - 20
+        page.close()
+
+
+def test_a_card_that_waits_for_its_pictures_says_so(page):
+    page.page.route("**/strip?*", lambda route: None)
+    page.keys("w")
+    card = page.page.locator(".card .both").first
+    card.wait_for()
+    said = "one => getComputedStyle(one, '::after').content"
+    assert "is being read" in card.evaluate(said)
+    page.page.unroute("**/strip?*")
+
+
+def test_both_strips_say_what_they_are(page):
+    for strip, words in (("#strip", "an error is a bump"), ("#margin", "The taller a bar")):
+        box = page.page.locator(strip).bounding_box()
+        x, y = box["x"] + 30, box["y"] + 12  # over the caption, too
+        told = "([x, y]) => document.elementFromPoint(x, y).title"
+        assert words in page.page.evaluate(told, [x, y])

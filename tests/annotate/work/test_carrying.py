@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from annotate.engine.carried import carried_over
-from annotate.store.operations import SetAnchor, SetStatus
+from annotate.store.operations import SetAnchor, SetStatus, SetTag
 from annotate.work.carrying import carry_over
 from skyline_viz import render
 from skyline_viz.photo import write_photo
@@ -148,3 +148,9 @@ def test_a_neighbour_that_has_vanished_carries_nothing(bench, folder):
     bench.close_photo(1)
     (folder / "pan-1.png").unlink()
     assert shown(bench, 2).state.revision == 0
+
+
+def test_the_line_of_a_photo_without_a_visible_skyline_is_not_carried(bench):
+    before = accept(bench, 1)
+    before.apply(SetTag(tag="no visible skyline", on=True), -1)
+    assert shown(bench, 2).state.carried == ""
