@@ -20,17 +20,25 @@ import signal
 import subprocess
 import sys
 import tempfile
+import tracemalloc
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
-from time import perf_counter, sleep
+from time import perf_counter, process_time, sleep
 
 import psutil
 import pyarrow.parquet as pq
 
+from skyline_viz.arrays import U8
+from skyline_viz.config import TrainingConfig
+from skyline_viz.detector import Detector
 from skyline_viz.photo import write_photo
 from skyline_viz.rendering import render
 from skyline_viz.running.line_store import store_of
+from skyline_viz.running.line_table import found_row, write_lines
+from skyline_viz.skyline import Skyline
+from skyline_viz.storage.stored_photo import StoredPhoto
+from skyline_viz.training import gather
 
 KINDS = ("clear", "hazy", "cloudy", "snow", "foreground", "spires", "desert", "rover")
 SIZE = (480, 360)
@@ -85,9 +93,7 @@ def measured(words: list[str], kill: tuple[float, float] | None = None) -> Cost:
             break
         passed = perf_counter() - began
         if kill and passed > kill[0] and not killed:
-            worker = max(watched.children(recursive=True), key=_worked)
-            os.kill(worker.pid, signal.SIGKILL)
-            killed = True
+            killed = _kill_a_worker(watched)
         if kill and passed > kill[1]:
             process.kill()
         sleep(LOOK_EVERY)
@@ -95,6 +101,14 @@ def measured(words: list[str], kill: tuple[float, float] | None = None) -> Cost:
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return Cost(perf_counter() - began, spent, tuple(memory), said)
+
+
+def _kill_a_worker(client: psutil.Process) -> bool:
+    """Kill the process that has worked most, but for the first one; whether there was one."""
+    workers = client.children(recursive=True)
+    if workers:
+        os.kill(max(workers, key=_worked).pid, signal.SIGKILL)
+    return bool(workers)
 
 
 def _worked(process: psutil.Process) -> float:
@@ -121,6 +135,7 @@ def lines(table: Path) -> dict[str, tuple[object, ...]]:
 
 def main(photos: int = 10_000) -> None:
     """Measure, compare and print."""
+    parts()
     with tempfile.TemporaryDirectory() as place:
         here = Path(place)
         folder = write_links(here / "photos", photos)
@@ -142,6 +157,7 @@ def main(photos: int = 10_000) -> None:
         words = command(folder, broken, "--cluster", "local:2")
         killed = measured(words, (0.35 * whole.seconds, 0.6 * whole.seconds))
         kept = sum(one.stat().st_size for one in here.glob(f"{store_of(broken).name}*"))
+        print(killed.said.strip())
         print(f"killed after {killed.seconds:.0f} s; {kept / 1e6:.1f} MB are kept")
         again = measured(words)
         _tell("the same command again", again, photos)
@@ -151,6 +167,38 @@ def main(photos: int = 10_000) -> None:
         print(f"photos in the table: {len(found)}, each once; the lines are the same: {same}")
         if len(found) != photos or not same:
             sys.exit("the tables differ")
+
+
+def parts() -> None:
+    """What does not depend on the machine's load: sizes, and what adding two sums takes."""
+    config = TrainingConfig()
+    gram = gather(*_scene(0), 0, config)
+    began = process_time()
+    for _ in range(10):
+        gram + gram
+    adding = (process_time() - began) / 10
+    print(f"Gram matrices: {gram.sums.nbytes / 1e6:.1f} MB; adding two {1000 * adding:.0f} ms")
+    tracemalloc.start()
+    named = [
+        StoredPhoto(f"s3://photos/2026/11/26/webcam-{at:09}.jpg", at, f'ETag "{at:032x}"')
+        for at in range(100_000)
+    ]
+    print(f"the name of a photo: {tracemalloc.get_traced_memory()[0] / len(named):.0f} bytes")
+    tracemalloc.stop()
+    detector = Detector()
+    found = [detector.detect(_scene(at)[0]) for at in range(40)]
+    rows = [
+        found_row(f"s3://photos/{at}.jpg", "", f"{at:064x}", one) for at, one in enumerate(found)
+    ]
+    with tempfile.TemporaryDirectory() as place:
+        table = Path(place, "t.parquet")
+        write_lines(table, rows, {})
+        print(f"a row of {SIZE[0]} columns: {table.stat().st_size / len(rows):.0f} bytes")
+
+
+def _scene(number: int) -> tuple[U8, Skyline]:
+    scene = render(KINDS[number % len(KINDS)], number, *SIZE)
+    return scene.photo, scene.truth
 
 
 def _tell(what: str, cost: Cost, photos: int) -> None:

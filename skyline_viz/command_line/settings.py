@@ -24,6 +24,9 @@ BankFile: TypeAlias = Annotated[Path | None, tyro.conf.arg(metavar="FILE")]
 RunFile: TypeAlias = Annotated[Path | None, tyro.conf.arg(name="config", metavar="FILE")]
 """run.json or summary.json of an earlier run, or None."""
 
+ClusterAddress: TypeAlias = Annotated[str | None, tyro.conf.arg(metavar="ADDRESS")]
+"""Address of a dask scheduler, ``local:N``, or None to do without."""
+
 Switch: TypeAlias = tyro.conf.FlagCreatePairsOff[bool]
 """Off unless it is named."""
 

@@ -19,7 +19,7 @@ from skyline_viz.command_line.messages import (
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.run_record import RECORD, Beginning
-from skyline_viz.command_line.settings import Folder, Switch
+from skyline_viz.command_line.settings import ClusterAddress, Folder, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.stored import StoredItem, collect_stored, stored_photo
 from skyline_viz.command_line.to_table import detect_to_table, is_table_name, shard_of, table_of
@@ -89,7 +89,7 @@ class Detect:
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
 
-    cluster: Annotated[str | None, tyro.conf.arg(metavar="ADDRESS")] = None
+    cluster: ClusterAddress = None
     """Work on a cluster instead: tcp://HOST:PORT, the address of a dask scheduler, or local:N for
     one of N processes on this machine. For --out FILE.parquet."""
 

@@ -14,11 +14,12 @@ from skyline_viz.command_line.messages import (
     GOOD,
     UsageError,
     counted,
+    say,
     status_after,
     tell,
     tell_done,
 )
-from skyline_viz.command_line.settings import Preset, RunFile
+from skyline_viz.command_line.settings import ClusterAddress, Preset, RunFile
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig, TrainingConfig
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from skyline_viz.detector import Detector
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Configurable
+    from skyline_viz.running.batch import Failure
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,10 @@ class Train:
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
 
+    cluster: ClusterAddress = None
+    """Gather on a cluster instead: tcp://HOST:PORT, the address of a dask scheduler, or local:N for
+    one of N processes on this machine. For our filters; the bank is the same to the bit."""
+
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
 
@@ -102,6 +108,8 @@ class Train:
             raise UsageError(f"{self.out} is a folder; name a file for the detector.")
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
+        if self.cluster is not None and (self.learn_sky is not None or self.workers):
+            raise UsageError("--cluster is for filters, and instead of --workers.")
         if self.learn_sky is not None:
             return self._train_sky(self.learn_sky)
         if self.teacher is not None or self.steps != STEPS:
@@ -177,10 +185,7 @@ class Train:
                 f"settings are given twice; leave out --preset and --training.detector, or "
                 f"name default instead of {self.method}."
             )
-        workers = foresee([item for items in sets.values() for item in items], self.workers)
-        bank, failures = evaluation.train_on_several(
-            sets, training, seed=self.seed, workers=workers
-        )
+        bank, failures = self._gathered(sets, training)
         trained = replace(method, bank=bank, config=training.detector)
         trained.save(self.out)
         tell(f"photos used   {bank.provenance.images} of {photos} in {bank.provenance.dataset}")
@@ -195,6 +200,19 @@ class Train:
         tell_done(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
 
+    def _gathered(
+        self, sets: Mapping[str, Sequence[DatasetItem]], training: TrainingConfig
+    ) -> tuple[FilterBank, list[Failure]]:
+        """The bank, gathered in processes or on a cluster."""
+        if self.cluster is None:
+            workers = foresee([item for items in sets.values() for item in items], self.workers)
+            return evaluation.train_on_several(sets, training, seed=self.seed, workers=workers)
+        from skyline_viz.running.cluster import cluster_at
+
+        with cluster_at(self.cluster) as there:
+            say(f"the cluster shows what it does at {there.link}")
+            return evaluation.train_on_several(sets, training, seed=self.seed, cluster=there)
+
     def _pretrained(self, method: Configurable) -> Configurable:
         from skyline_viz.methods.parsing import SceneParsing
 
@@ -208,6 +226,8 @@ class Train:
 
         if self.training != TrainingConfig():
             raise UsageError(f"--preset and --training are for our filter bank, not {self.method}.")
+        if self.cluster is not None:
+            raise UsageError(f"--cluster is for our filter bank, not {self.method}.")
         items = [item for one in sets.values() for item in one]
         dataset = ", ".join(sets)
         foresee(items)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 from skyline_viz.config import FILTER_SIZES, TrainingConfig
 from skyline_viz.datasets.item import Item
@@ -12,6 +13,9 @@ from skyline_viz.filter_bank import FilterBank
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.system.fingerprints import telling
 from skyline_viz.training import GramMatrices, gather_item, solve, together
+
+if TYPE_CHECKING:
+    from skyline_viz.running.cluster import Cluster
 
 
 def train_on(
@@ -46,6 +50,7 @@ def train_on_several(
     *,
     seed: int = 0,
     workers: int = 1,
+    cluster: Cluster | None = None,
 ) -> tuple[FilterBank, list[Failure]]:
     """Learn a filter bank from several data sets, each of which counts as much as each other one.
 
@@ -54,6 +59,7 @@ def train_on_several(
         training: How samples are drawn and filters are solved.
         seed: Seed of the negative samples.
         workers: Number of processes, see `batch.run`.
+        cluster: Where to gather instead; the bank is the same.
 
     Returns:
         The bank, and the photos that failed.
@@ -64,7 +70,7 @@ def train_on_several(
     sums = []
     failures: list[Failure] = []
     for items in datasets.values():
-        total, failed = _gather_all(items, training, seed, workers)
+        total, failed = _gather_all(items, training, seed, workers, cluster)
         sums.append(total)
         failures += failed
     return solve(together(sums), seed, training, ", ".join(datasets)), failures
@@ -97,17 +103,27 @@ def train_sizes(
 
 
 def _gather_all(
-    items: Sequence[Item], training: TrainingConfig, seed: int, workers: int = 1
+    items: Sequence[Item],
+    training: TrainingConfig,
+    seed: int,
+    workers: int = 1,
+    cluster: Cluster | None = None,
 ) -> tuple[GramMatrices, list[Failure]]:
     """Summed Gram matrices of all photos, and the photos that failed."""
     total = GramMatrices.empty(training)
-    failures = []
+    failures: list[Failure] = []
     work = partial(gather_item, training, seed)
-    for outcome in run(work, items, workers=workers, title="training"):
-        if isinstance(outcome, Failure):
-            failures.append(outcome)
-        else:
-            total += outcome
+    if cluster is not None:
+        from skyline_viz.running.cluster_sums import summed  # noqa: PLC0415 - of an extra
+
+        found, failures = summed(cluster, work, items, title="training")
+        total = total if found is None else found
+    else:
+        for outcome in run(work, items, workers=workers, title="training"):
+            if isinstance(outcome, Failure):
+                failures.append(outcome)
+            else:
+                total += outcome
     if total.images == 0:
         reason = f", and the first one failed: {failures[0]}" if failures else "."
         raise ValueError(f"training needs at least one photo with a true skyline{reason}")

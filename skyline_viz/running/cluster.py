@@ -114,8 +114,7 @@ class Cluster:
     def _sender(self, function: Callable[[Task], Value]) -> Callable[[Sequence[Task]], Any]:
         """What sends photos to a worker, and gives dask's word for what they will come to."""
         run, numbers = secrets.token_hex(8), itertools.count()  # no two tasks have the same name
-        sent = packed((function, versions(), photo_limit()), _named(function))
-        work = self.client.submit(bytes, sent, key=f"work-{run}")
+        work = self.client.submit(bytes, to_send(function), key=f"work-{run}")
 
         def send(part: Sequence[Task]) -> Any:  # noqa: ANN401
             told = packed([*part], part[0].name)
@@ -131,10 +130,10 @@ class Cluster:
         future: Any,  # noqa: ANN401
     ) -> Iterator[Value | Failure]:
         """What photos came to; where workers died of one of them, each goes alone."""
-        distributed = dask("distributed")
         try:
-            outcomes, notes = unpacked(future.result())
-        except distributed.scheduler.KilledWorker as error:
+            with translated():
+                outcomes, notes = unpacked(future.result())
+        except dask("distributed").scheduler.KilledWorker as error:
             if len(part) > 1:
                 for task in part:
                     yield from self._of_part(send, [task], send([task]))
@@ -142,12 +141,6 @@ class Cluster:
             died = f"{error.allowed_failures + 1} workers died of it, one by one"
             yield Failure(part[0].name, f"{died}, probably for want of memory")
             return
-        except (ClusterError, Unsendable, ImportError) as error:
-            raise BatchError(_said(error)) from error
-        except (OSError, distributed.client.FutureCancelledError) as error:
-            raise BatchError(
-                "the cluster is gone; the same command goes on when it is back."
-            ) from error
         for one in notes:
             note(one)
         for outcome in outcomes:
@@ -278,9 +271,27 @@ def _said(error: Exception) -> str:
     return f"a worker {_lacking(error)}." if isinstance(error, ImportError) else str(error)
 
 
-def _named(function: Callable[..., object]) -> str:
-    """What to call a function that cannot be sent."""
-    return str(getattr(getattr(function, "func", function), "__name__", "the work"))
+def to_send(function: Callable[..., object]) -> bytes:
+    """A function for workers, with what they need to know before they run it, see `prepared`.
+
+    Raises:
+        Unsendable: Part of it cannot be sent.
+    """
+    named = getattr(getattr(function, "func", function), "__name__", "the work")
+    return packed((function, versions(), photo_limit()), str(named))
+
+
+@contextlib.contextmanager
+def translated() -> Iterator[None]:
+    """Turn what workers and their connection raise into `BatchError`, but for photos' own."""
+    try:
+        yield
+    except (ClusterError, Unsendable, ImportError) as error:
+        raise BatchError(_said(error)) from error
+    except (OSError, dask("distributed").client.FutureCancelledError) as error:
+        raise BatchError(
+            "the cluster is gone; the same command goes on when it is back."
+        ) from error
 
 
 def _attempt_there(work: bytes, told: bytes) -> bytes:
@@ -290,7 +301,7 @@ def _attempt_there(work: bytes, told: bytes) -> bytes:
         ClusterError: The worker has other versions than the program that sent the work.
         Unsendable: The work cannot be unpacked here, or an outcome cannot be sent back.
     """
-    function = _function(work)
+    function = prepared(work)
     outcomes: list[object] = []
     notes: list[str] = []
     with heard_by(notes.append):
@@ -303,8 +314,13 @@ def _attempt_there(work: bytes, told: bytes) -> bytes:
 
 
 @lru_cache(maxsize=1)
-def _function(work: bytes) -> Callable[[Any], Any]:
-    """The function, once a worker; what `batch` prepares in its processes is prepared here."""
+def prepared(work: bytes) -> Callable[[Any], Any]:
+    """The function of `to_send`, once a worker, which is prepared as `batch` does its processes.
+
+    Raises:
+        ClusterError: This worker has other versions than the program that sent it.
+        Unsendable: It cannot be unpacked here.
+    """
     function, theirs, megapixels = unpacked(work)
     _check_here(theirs)
     import cv2  # noqa: PLC0415 - only processes that work on photos pay for it

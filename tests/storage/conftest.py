@@ -4,13 +4,13 @@ import fsspec
 import pytest
 import s3fs as library
 
-from testing import storage
+from testing.programs.s3 import s3 as started_s3
 
 
 @pytest.fixture
 def s3(monkeypatch):
     monkeypatch.setattr(library.S3FileSystem, "retries", 1)  # ours are looked at
-    with storage.s3(monkeypatch) as moods:
+    with started_s3(monkeypatch) as moods:
         yield moods
 
 

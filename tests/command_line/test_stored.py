@@ -1,0 +1,44 @@
+"""Photos of a command line by path and by address."""
+
+import fsspec
+import pytest
+
+from skyline_viz.command_line.stored import StoredItem, collect_stored, photos_named, stored_photo
+from skyline_viz.storage.addresses import StorageError
+from testing.programs.commands import scene, write_scene
+
+
+@pytest.fixture
+def memory(tmp_path):
+    files = fsspec.filesystem("memory")
+    for number, key in enumerate(["in/a.png", "in/deep/a.png", "in/b.png"]):
+        files.pipe(f"/{key}", write_scene(tmp_path / "x.png", number).read_bytes())
+    (tmp_path / "x.png").unlink()
+    yield files
+    files.store.clear()
+    files.pseudo_dirs[:] = [""]
+
+
+def test_paths_and_addresses_get_names_of_their_own(memory, tmp_path):
+    file = write_scene(tmp_path / "a.png", 5)
+    found = collect_stored([str(file), "memory://in", "memory:///in/b.png"])
+    assert len({one.name for one in found}) == len(found) == 4
+    where = [stored_photo(one.item).name for one in found]
+    assert where == [
+        str(file),
+        *(f"memory:///in/{key}" for key in ("a.png", "b.png", "deep/a.png")),
+    ]
+    assert (found[2].item.photo() == scene(2)[0]).all()
+    assert isinstance(found[1].item, StoredItem)
+
+
+def test_photos_travel_with_what_a_listing_tells(memory, tmp_path):
+    file = write_scene(tmp_path / "a.png")
+    photos, files = photos_named(["memory://in", str(file)])
+    assert [one.size is None for one in photos] == [True, False, False, False]
+    assert [one.photo_path for one in files] == [file]
+
+
+def test_an_address_that_leads_nowhere_is_named():
+    with pytest.raises(StorageError, match=r"^memory://gone does not exist\.$"):
+        collect_stored(["memory://gone"])
