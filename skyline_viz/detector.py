@@ -13,14 +13,14 @@ import numpy.typing as npt
 from skyline_viz.arrays import F32, U8, Int, check_photo
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.datasets.item import Item
+from skyline_viz.detecting.filter_detection import FilterDetection
+from skyline_viz.detecting.pipeline import Stages, run_stages, sky_inside
 from skyline_viz.detection import timed
 from skyline_viz.edges import edge_settings
 from skyline_viz.files import replacing
 from skyline_viz.filter_bank import FilterBank, bank_file, read_bank
-from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.frames.frame import Frame
 from skyline_viz.frames.visibility import visibility
-from skyline_viz.pipeline import Stages, run_stages, sky_inside
 from skyline_viz.sky_model import NETWORK, SkyModel
 from skyline_viz.skyline import Skyline
 from skyline_viz.system import headed_npz

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from skyline_viz.config import DetectorConfig
+from skyline_viz.detecting.pipeline import STAGES
 from skyline_viz.detection import solve_detection
 from skyline_viz.detector import Detector
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
-from skyline_viz.pipeline import STAGES
 from skyline_viz.score import score_at
 from skyline_viz.tensor import tensor_at
 from testing.detections import BOTH, mountains, random_photo

@@ -277,7 +277,7 @@ class Inspect:
         fidelity: Fidelity,
     ) -> Contents:
         """Log a photo of `together` ones, and say what the recording now holds."""
-        from skyline_viz.filter_detection import FilterDetection
+        from skyline_viz.detecting.filter_detection import FilterDetection
         from skyline_viz.running.warming import warm_up
         from skyline_viz.viewer import entities, parting_words
         from skyline_viz.viewer.comparison import log_comparison

@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from skyline_viz.arrays import U8
     from skyline_viz.datasets.layouts import Dataset
     from skyline_viz.datasets.named_item import NamedItem
+    from skyline_viz.detecting.filter_detection import FilterDetection
     from skyline_viz.detection import Detection
     from skyline_viz.detector import Detector
     from skyline_viz.diagnosis.diagnosing import Diagnosis
     from skyline_viz.diagnosis.sweep import Sweep
     from skyline_viz.evaluation.verdict import Verdict
     from skyline_viz.filter_bank import FilterBank
-    from skyline_viz.filter_detection import FilterDetection
     from skyline_viz.method import Method
     from skyline_viz.running.batch import Failure
     from skyline_viz.skyline import Skyline

@@ -10,11 +10,11 @@ import numpy as np
 
 from skyline_viz.arrays import F32, Bool
 from skyline_viz.cost import CostModel, Seen
+from skyline_viz.detecting.filter_detection import FilterDetection
+from skyline_viz.detecting.known import looks_of
 from skyline_viz.diagnosis.counterfactual import Case
 from skyline_viz.edges import edge_pixels, find_edges
 from skyline_viz.evaluation.metrics import scaled
-from skyline_viz.filter_detection import FilterDetection
-from skyline_viz.known import looks_of
 
 FACTORS = {0.5: "half the", 0.25: "a quarter of the", 2.0: "twice the"}
 """Factors of the Canny thresholds that are tried, and what they are in words."""

@@ -16,9 +16,9 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import F32, F64, U8, Int, read_only
+from skyline_viz.detecting.filter_detection import FilterDetection
 from skyline_viz.detection import Detection
 from skyline_viz.edges import gradient_norms, to_grey
-from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.score import score_at
 from skyline_viz.tensor import tensor_at
 

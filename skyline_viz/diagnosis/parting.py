@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from skyline_viz.arrays import Bool, Int
+from skyline_viz.detecting.filter_detection import FilterDetection
 from skyline_viz.detection import Detection
 from skyline_viz.diagnosis.differences import Difference, Kind, differences, same_terms
 from skyline_viz.evaluation.metrics import TOLERANCE, column_errors, scaled, wrong_segments
-from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.skyline import Skyline
 from skyline_viz.stage import PATH
 from skyline_viz.system.settings import spelt

@@ -9,13 +9,13 @@ import numpy as np
 
 from skyline_viz.arrays import Int
 from skyline_viz.config import DetectorConfig
+from skyline_viz.detecting.filter_detection import FilterDetection
 from skyline_viz.detection import Detection
 from skyline_viz.detector import Detector
 from skyline_viz.diagnosis.counterfactual import REPAIRED, Case
 from skyline_viz.diagnosis.diagnosing import Diagnosis
 from skyline_viz.diagnosis.other_settings import flags, pairs_to_try, settings_to_try
 from skyline_viz.evaluation.metrics import column_errors, is_gross_miss, wrong_segments
-from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.sky_model import SkyModel
 from skyline_viz.skyline import Skyline
 

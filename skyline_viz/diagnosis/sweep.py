@@ -11,10 +11,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from skyline_viz.config import RANGES, DetectorConfig
+from skyline_viz.detecting.filter_detection import FilterDetection
 from skyline_viz.detector import Detector
 from skyline_viz.edges import LOWEST_FACTOR
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.filter_detection import FilterDetection
 
 _LEAST = 0.1  # what a weight of 0 is swept up from, where the default is 0, too
 

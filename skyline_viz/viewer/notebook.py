@@ -20,11 +20,11 @@ import rerun as rr
 import rerun.notebook as rrn
 from PIL import Image
 
+from skyline_viz.detecting.filter_detection import FilterDetection
 from skyline_viz.detection import Detection
 from skyline_viz.diagnosis.diagnosing import diagnose
 from skyline_viz.diagnosis.remedies import most_helpful
 from skyline_viz.diagnosis.sweep import Sweep, setting_sweeps
-from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.overlay import draw_overlay
 from skyline_viz.skyline import Skyline
 from skyline_viz.system.names import printable, shown_in_viewer

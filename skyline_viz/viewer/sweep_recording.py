@@ -13,11 +13,11 @@ import numpy as np
 import rerun as rr
 
 from skyline_viz.colours import ALTERNATIVE, PATH
+from skyline_viz.detecting.filter_detection import FilterDetection
 from skyline_viz.detection import Detection
 from skyline_viz.diagnosis.sweep import Step, Sweep
 from skyline_viz.evaluation.metrics import TOLERANCE, scaled, wrong_segments
 from skyline_viz.evaluation.verdict import Verdict
-from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.skyline import Skyline
 from skyline_viz.stage import COST
 from skyline_viz.viewer import entities

@@ -16,10 +16,10 @@ import numpy as np
 
 from skyline_viz.arrays import F32, U8, Int
 from skyline_viz.config import DetectorConfig
+from skyline_viz.detecting.filter_detection import FilterDetection
 from skyline_viz.detection import timed
 from skyline_viz.edges import EDGE_SETTINGS, to_grey
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.frames.frame import Frame
 from skyline_viz.score import score_at
 from skyline_viz.tensor import Tensor, tensor_at

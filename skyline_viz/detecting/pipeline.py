@@ -12,13 +12,8 @@ import numpy as np
 from skyline_viz.arrays import F32, U8, Bool, Int
 from skyline_viz.config import DetectorConfig
 from skyline_viz.cost import CostModel, Seen
-from skyline_viz.detection import timed
-from skyline_viz.edges import candidate_edges, edge_pixels, frame_of
-from skyline_viz.filter_bank import FilterBank
-from skyline_viz.filter_detection import FilterDetection
-from skyline_viz.frames.frame import Frame, around_frame
-from skyline_viz.kernels.planes import padded_planes
-from skyline_viz.known import (
+from skyline_viz.detecting.filter_detection import FilterDetection
+from skyline_viz.detecting.known import (
     Looks,
     cost_alike,
     edges_alike,
@@ -27,6 +22,11 @@ from skyline_viz.known import (
     looks_of,
     path_alike,
 )
+from skyline_viz.detection import timed
+from skyline_viz.edges import candidate_edges, edge_pixels, frame_of
+from skyline_viz.filter_bank import FilterBank
+from skyline_viz.frames.frame import Frame, around_frame
+from skyline_viz.kernels.planes import padded_planes
 from skyline_viz.path import Path, shortest_path
 from skyline_viz.sky_model import SkyModel
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from skyline_viz.detecting.known import looks_of, places_among
 from skyline_viz.detector import Detector
 from skyline_viz.edges import edge_pixels
-from skyline_viz.known import looks_of, places_among
 from skyline_viz.rendering import render
 
 
