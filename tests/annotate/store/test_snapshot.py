@@ -91,6 +91,8 @@ def test_labels_of_an_older_version_are_read_and_stay_as_they_are(labelled, caps
             "ALTER TABLE photos DROP COLUMN pixels",
             "ALTER TABLE photos DROP COLUMN touched",
             "ALTER TABLE labels RENAME COLUMN confidence TO margin",
+            "ALTER TABLE standings DROP COLUMN comment",
+            "ALTER TABLE standings DROP COLUMN commented_by",
             "PRAGMA user_version = 2",
         ):
             database.execute(statement)
