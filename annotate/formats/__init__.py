@@ -48,6 +48,7 @@ from annotate.formats.photo_names import PhotoNames
 from annotate.formats.sources import drawings_in, files_below, format_of
 from annotate.store.contents import Contents
 from annotate.store.labels import Label
+from skyline_viz.command_line.messages import listed
 from skyline_viz.files import make_folder, move_folder
 from skyline_viz.system.aftermath import passing_folder
 
@@ -144,11 +145,9 @@ def export_labels(
         reasons = f" {notes[0]}" if notes else ""
         raise FormatError(f"there is nothing to export: no photo has been accepted.{reasons}")
     if format in _LOSES_VISIBILITY:
-        for entry in entries:
-            if not entry.skyline.visible.all():
-                notes.append(
-                    f"{entry.label.name}: {format} cannot say which columns are not visible."
-                )
+        some = [entry.label.name for entry in entries if not entry.skyline.visible.all()]
+        if some:
+            notes.append(f"{format} cannot say which columns are not visible: {listed(some)}.")
     make_folder(out.parent)
     with passing_folder(".export-", out.parent) as folder:
         inside = folder / "whole"
