@@ -51,6 +51,7 @@ from annotate.store.labels import Label
 from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.files import make_folder, move_folder
 from skyline_viz.system.aftermath import passing_folder
+from skyline_viz.system.names import listed
 
 
 def _drawn(format: str) -> Reader:  # noqa: A002
@@ -151,14 +152,7 @@ def export_labels(
         notes += more
     if not entries:
         raise FormatError(f"there is nothing to export. {notes[0]}")
-    for entry in entries:
-        notes += _lost(entry, format)
-    if format not in _CARRIES_COMMENTS:
-        notes += [
-            f"{entry.label.name}: {format} cannot carry what {entry.label.comment.by} says of it."
-            for entry in entries
-            if entry.label.comment
-        ]
+    notes += _lost(entries, format)
     make_folder(out.parent)
     with passing_folder(".export-", out.parent) as folder:
         inside = folder / "whole"
@@ -170,12 +164,26 @@ def export_labels(
     return Export(len(entries), tuple(notes))
 
 
-def _lost(entry: Entry, format: str) -> Iterator[str]:  # noqa: A002
-    """A sentence for what a format cannot say of the columns that are not visible."""
-    if format in _LOSES_VISIBILITY and not entry.skyline.visible.all():
-        yield f"{entry.label.name}: {format} cannot say which columns are not visible."
-    elif format not in WITHOUT_PHOTOS and any(one.why for one in entry.label.hidden):
-        yield f"{entry.label.name}: {format} cannot say why columns are not visible."
+def _lost(entries: list[Entry], format: str) -> Iterator[str]:  # noqa: A002
+    """A sentence for each thing that a format cannot say, with the photos of which it is lost."""
+    losses = {
+        "which columns are not visible": (
+            format in _LOSES_VISIBILITY,
+            lambda entry: not entry.skyline.visible.all(),
+        ),
+        "why columns are not visible": (
+            format not in (*_LOSES_VISIBILITY, *WITHOUT_PHOTOS),
+            lambda entry: any(one.why for one in entry.label.hidden),
+        ),
+        "what was said of a photo": (
+            format not in _CARRIES_COMMENTS,
+            lambda entry: entry.label.comment is not None,
+        ),
+    }
+    for what, (loses, has) in losses.items():
+        names = [entry.label.name for entry in entries if loses and has(entry)]
+        if names:
+            yield f"{format} cannot say {what}: {listed(names)}."
 
 
 def archive(

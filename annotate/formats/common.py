@@ -20,6 +20,7 @@ from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.datasets.tree import photos_below
 from skyline_viz.photo import PhotoError, photo_size
 from skyline_viz.skyline import Skyline, SkylineError
+from skyline_viz.system.names import listed
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,13 +116,10 @@ def one_each(entries: list[Entry]) -> tuple[list[Entry], list[str]]:
 
 
 def with_a_line(entries: list[Entry], format: str) -> tuple[list[Entry], list[str]]:  # noqa: A002
-    """Labels of which something is visible, and a sentence for each other one."""
-    notes = [
-        f"{one.label.name} has no visible skyline, which {format} cannot say, and is left out."
-        for one in entries
-        if not one.skyline.visible.any()
-    ]
-    return [one for one in entries if one.skyline.visible.any()], notes
+    """Labels of which something is visible, and a sentence for the other ones."""
+    without = [one.label.name for one in entries if not one.skyline.visible.any()]
+    note = f"left out, because {format} cannot say that nothing is visible: {listed(without)}."
+    return [one for one in entries if one.skyline.visible.any()], [note] if without else []
 
 
 def safe_stems(names: Iterable[str]) -> dict[str, str]:

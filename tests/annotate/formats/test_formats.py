@@ -294,7 +294,7 @@ def test_a_photo_without_a_visible_skyline_leaves_no_line(tmp_path, photos, kind
     if kind in ("mask", "ch1", "coco", "painted"):
         assert export.written == 1
         (said,) = export.notes
-        assert said == f"fog.png has no visible skyline, which {kind} cannot say, and is left out."
+        assert said == f"left out, because {kind} cannot say that nothing is visible: fog.png."
         with pytest.raises(
             FormatError, match=r"nothing to export\. fog\.png has no visible skyline"
         ):
@@ -311,5 +311,5 @@ def test_what_a_format_cannot_say_of_hidden_columns_is_said(tmp_path, photos, ki
     loses = {"mask": "which", "ch1": "which", "coco": "which", "csv": "", "json": ""}.get(
         kind, "why"
     )
-    wanted = (f"a.png: {kind} cannot say {loses} columns are not visible.",) if loses else ()
+    wanted = (f"{kind} cannot say {loses} columns are not visible: a.png.",) if loses else ()
     assert notes == wanted

@@ -33,4 +33,4 @@ def test_what_was_said_of_a_photo_is_the_description(tmp_path, photos):
     assert shape["description"] == "eve: the hut is cut off"
     assert found.notes == ()
     found = export_labels([said], photos, tmp_path / "csv", "csv")
-    assert found.notes == ("a.png: csv cannot carry what eve says of it.",)
+    assert found.notes == ("csv cannot say what was said of a photo: a.png.",)
