@@ -1,5 +1,6 @@
 """A real browser on the labelling page."""
 
+import re
 import shutil
 from contextlib import contextmanager
 
@@ -73,8 +74,8 @@ class Page:
         self.saved()
 
     def shows(self, name):
-        """Wait until a photo is shown."""
-        self.page.locator("#name", has_text=name).wait_for()
+        """Wait until a photo is shown; while it is on its way, an ellipsis follows its name."""
+        self.page.locator("#name", has_text=re.compile(f"{re.escape(name)}[^…]*$")).wait_for()
 
     def close(self):
         self.context.close()

@@ -359,6 +359,7 @@ def test_axe_finds_nothing(browser, client, scheme):
     for button, dialog in (
         ("#help", "#help-dialog"),
         ("#tags", "#tags-dialog"),
+        ("#guideline", "#guideline-dialog"),
         ("#more", "#more-dialog"),
     ):
         page.page.locator(button).click()
