@@ -24,7 +24,7 @@ from __future__ import annotations
 import io
 import shutil
 import zipfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -166,10 +166,10 @@ def export_labels(
 
 def _lost(entries: list[Entry], format: str) -> Iterator[str]:  # noqa: A002
     """A sentence for each thing that a format cannot say, with the photos of which it is lost."""
-    losses = {
+    losses: dict[str, tuple[bool, Callable[[Entry], bool]]] = {
         "which columns are not visible": (
             format in _LOSES_VISIBILITY,
-            lambda entry: not entry.skyline.visible.all(),
+            lambda entry: not bool(entry.skyline.visible.all()),
         ),
         "why columns are not visible": (
             format not in (*_LOSES_VISIBILITY, *WITHOUT_PHOTOS),
