@@ -33,7 +33,7 @@ from .evaluation.sweeping import sweep as sweep
 from .evaluation.verdict import Verdict as Verdict
 from .filter_bank import FilterBank as FilterBank
 from .filter_bank import FilterBankError as FilterBankError
-from .filter_detection import FilterDetection as FilterDetection
+from .detecting.filter_detection import FilterDetection as FilterDetection
 from .frames.visibility import Visibility as Visibility
 from .method import Method as Method
 from .method import MethodError as MethodError
