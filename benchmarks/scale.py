@@ -26,6 +26,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter, process_time, sleep
 
+import cv2
 import psutil
 import pyarrow.parquet as pq
 
@@ -34,10 +35,12 @@ from skyline_viz.config import TrainingConfig
 from skyline_viz.detector import Detector
 from skyline_viz.photo import write_photo
 from skyline_viz.rendering import render
+from skyline_viz.running.line_run import LineTask, find_line
 from skyline_viz.running.line_store import store_of
-from skyline_viz.running.line_table import found_row, write_lines
+from skyline_viz.running.line_table import write_lines
 from skyline_viz.skyline import Skyline
 from skyline_viz.storage.stored_photo import StoredPhoto
+from skyline_viz.system.memory import keep_freed
 from skyline_viz.training import gather
 
 KINDS = ("clear", "hazy", "cloudy", "snow", "foreground", "spires", "desert", "rover")
@@ -185,15 +188,28 @@ def parts() -> None:
     ]
     print(f"the name of a photo: {tracemalloc.get_traced_memory()[0] / len(named):.0f} bytes")
     tracemalloc.stop()
+    cv2.setNumThreads(1)
+    keep_freed()
     detector = Detector()
-    found = [detector.detect(_scene(at)[0]) for at in range(40)]
-    rows = [
-        found_row(f"s3://photos/{at}.jpg", "", f"{at:064x}", one) for at, one in enumerate(found)
-    ]
     with tempfile.TemporaryDirectory() as place:
+        rows: list[bytes] = []
+        for at in range(24):
+            photo = Path(place, f"{at}.jpg")
+            write_photo(photo, _scene(at)[0])
+            rows.append(find_line(detector, LineTask(StoredPhoto(str(photo)))).row or b"")
         table = Path(place, "t.parquet")
         write_lines(table, rows, {})
         print(f"a row of {SIZE[0]} columns: {table.stat().st_size / len(rows):.0f} bytes")
+        for size in (SIZE, (1600, 1200)):
+            photo = Path(place, "photo.jpg")
+            write_photo(photo, render("clear", 1, *size).photo)
+            task = LineTask(StoredPhoto(str(photo)))
+            each = []
+            for _ in range(6):
+                began = process_time()
+                find_line(detector, task)
+                each.append(process_time() - began)
+            print(f"a photo of {size[0]} x {size[1]}: {1000 * min(each):.0f} ms of a processor")
 
 
 def _scene(number: int) -> tuple[U8, Skyline]:

@@ -17,6 +17,7 @@ from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from multiprocessing import resource_tracker
 from time import monotonic
 from typing import Any, TypeVar
 
@@ -159,7 +160,8 @@ class _Threads:
 
     def most(self) -> int:
         if monotonic() - self._seen > _COUNT_EVERY:
-            self._number = max(1, sum(self._client.nthreads().values()))
+            with contextlib.suppress(OSError, TimeoutError):  # of a scheduler that is busy
+                self._number = max(1, sum(self._client.nthreads().values()))
             self._seen = monotonic()
         return _A_THREAD * self._number
 
@@ -203,6 +205,7 @@ def cluster_at(where: str) -> Iterator[Cluster]:
 @contextlib.contextmanager
 def _started(number: int) -> Iterator[Any]:
     """A cluster on this machine, which only this machine reaches."""
+    resource_tracker.ensure_running()  # which lets SIGINT through again in the thread it starts in
     with held_back("SIGINT", "SIGHUP"):  # both reach all processes of a terminal
         cluster = dask("distributed").LocalCluster(
             n_workers=number,
