@@ -22,10 +22,12 @@ import sys
 import tempfile
 import tracemalloc
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter, process_time, sleep
 
+import cv2
 import psutil
 import pyarrow.parquet as pq
 
@@ -34,15 +36,18 @@ from skyline_viz.config import TrainingConfig
 from skyline_viz.detector import Detector
 from skyline_viz.photo import write_photo
 from skyline_viz.rendering import render
+from skyline_viz.running.line_run import LineTask, find_line
 from skyline_viz.running.line_store import store_of
-from skyline_viz.running.line_table import found_row, write_lines
+from skyline_viz.running.line_table import write_lines
 from skyline_viz.skyline import Skyline
 from skyline_viz.storage.stored_photo import StoredPhoto
+from skyline_viz.system.memory import keep_freed
 from skyline_viz.training import gather
 
 KINDS = ("clear", "hazy", "cloudy", "snow", "foreground", "spires", "desert", "rover")
 SIZE = (480, 360)
 LOOK_EVERY = 0.2  # seconds
+A_ROW = 4500  # bytes that a run keeps of a photo of this size
 
 
 @dataclass(frozen=True)
@@ -73,12 +78,15 @@ def command(folder: Path, out: Path, *more: str) -> list[str]:
     return [sys.executable, "-m", "skyline_viz", "detect", str(folder), "--out", str(out), *more]
 
 
-def measured(words: list[str], kill: tuple[float, float] | None = None) -> Cost:
+def measured(
+    words: list[str], kept: Callable[[], int] = int, kill: tuple[float, float] | None = None
+) -> Cost:
     """Run a command to its end, or until it is killed.
 
     Args:
         words: The command.
-        kill: Seconds after which a worker is killed, and after which the first process is.
+        kept: Tells how many bytes it has kept of what it has done.
+        kill: Bytes from which on a worker is killed, and from which on the first process is.
     """
     before, began = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter()
     environment = {**os.environ, "OMP_NUM_THREADS": "1"}
@@ -91,10 +99,10 @@ def measured(words: list[str], kill: tuple[float, float] | None = None) -> Cost:
             memory.append(watched.memory_info().rss)
         except psutil.NoSuchProcess:
             break
-        passed = perf_counter() - began
-        if kill and passed > kill[0] and not killed:
+        done = kept() if kill else 0
+        if kill and done > kill[0] and not killed:
             killed = _kill_a_worker(watched)
-        if kill and passed > kill[1]:
+        if kill and done > kill[1]:
             process.kill()
         sleep(LOOK_EVERY)
     said = process.communicate()[0]
@@ -155,10 +163,15 @@ def main(photos: int = 10_000) -> None:
         size = out.stat().st_size
         print(f"table: {size / 1e6:.1f} MB, {size / photos:.0f} bytes a photo of {SIZE[0]} columns")
         words = command(folder, broken, "--cluster", "local:2")
-        killed = measured(words, (0.35 * whole.seconds, 0.6 * whole.seconds))
-        kept = sum(one.stat().st_size for one in here.glob(f"{store_of(broken).name}*"))
+        store = store_of(broken).name
+
+        def kept() -> int:
+            return sum(one.stat().st_size for one in here.glob(f"{store}*"))
+
+        all_of_it = photos * A_ROW
+        killed = measured(words, kept, (0.3 * all_of_it, 0.6 * all_of_it))
         print(killed.said.strip())
-        print(f"killed after {killed.seconds:.0f} s; {kept / 1e6:.1f} MB are kept")
+        print(f"killed after {killed.seconds:.0f} s; {kept() / 1e6:.1f} MB are kept")
         again = measured(words)
         _tell("the same command again", again, photos)
         print(again.said.strip())
@@ -185,15 +198,28 @@ def parts() -> None:
     ]
     print(f"the name of a photo: {tracemalloc.get_traced_memory()[0] / len(named):.0f} bytes")
     tracemalloc.stop()
+    cv2.setNumThreads(1)
+    keep_freed()
     detector = Detector()
-    found = [detector.detect(_scene(at)[0]) for at in range(40)]
-    rows = [
-        found_row(f"s3://photos/{at}.jpg", "", f"{at:064x}", one) for at, one in enumerate(found)
-    ]
     with tempfile.TemporaryDirectory() as place:
+        rows: list[bytes] = []
+        for at in range(24):
+            photo = Path(place, f"{at}.jpg")
+            write_photo(photo, _scene(at)[0])
+            rows.append(find_line(detector, LineTask(StoredPhoto(str(photo)))).row or b"")
         table = Path(place, "t.parquet")
         write_lines(table, rows, {})
         print(f"a row of {SIZE[0]} columns: {table.stat().st_size / len(rows):.0f} bytes")
+        for size in (SIZE, (1600, 1200)):
+            photo = Path(place, "photo.jpg")
+            write_photo(photo, render("clear", 1, *size).photo)
+            task = LineTask(StoredPhoto(str(photo)))
+            each = []
+            for _ in range(6):
+                began = process_time()
+                find_line(detector, task)
+                each.append(process_time() - began)
+            print(f"a photo of {size[0]} x {size[1]}: {1000 * min(each):.0f} ms of a processor")
 
 
 def _scene(number: int) -> tuple[U8, Skyline]:

@@ -17,6 +17,7 @@ from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from multiprocessing import resource_tracker
 from time import monotonic
 from typing import Any, TypeVar
 
@@ -26,6 +27,7 @@ from skyline_viz.running.progress import ProgressBar
 from skyline_viz.running.resume import digest_of
 from skyline_viz.running.sending import Unsendable, packed, unpacked
 from skyline_viz.storage.addresses import needed
+from skyline_viz.system.aftermath import passing_folder
 from skyline_viz.system.endings import held_back
 from skyline_viz.system.memory import keep_freed, limit_photos, photo_limit
 from skyline_viz.system.notes import heard_by, note
@@ -159,7 +161,8 @@ class _Threads:
 
     def most(self) -> int:
         if monotonic() - self._seen > _COUNT_EVERY:
-            self._number = max(1, sum(self._client.nthreads().values()))
+            with contextlib.suppress(OSError, TimeoutError):  # of a scheduler that is busy
+                self._number = max(1, sum(self._client.nthreads().values()))
             self._seen = monotonic()
         return _A_THREAD * self._number
 
@@ -203,17 +206,23 @@ def cluster_at(where: str) -> Iterator[Cluster]:
 @contextlib.contextmanager
 def _started(number: int) -> Iterator[Any]:
     """A cluster on this machine, which only this machine reaches."""
-    with held_back("SIGINT", "SIGHUP"):  # both reach all processes of a terminal
-        cluster = dask("distributed").LocalCluster(
-            n_workers=number,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            dashboard_address="127.0.0.1:0",
-            memory_limit=0,
-            silence_logs=50,
-        )
-    with cluster:
-        yield cluster
+    resource_tracker.ensure_running()  # which lets SIGINT through again in the thread it starts in
+    with (
+        passing_folder() as scratch,
+        dask("dask").config.set({"temporary-directory": str(scratch)}),  # of the scheduler
+    ):
+        with held_back("SIGINT", "SIGHUP"):  # both reach all processes of a terminal
+            cluster = dask("distributed").LocalCluster(
+                n_workers=number,
+                threads_per_worker=1,
+                host="127.0.0.1",
+                dashboard_address="127.0.0.1:0",
+                local_directory=str(scratch),
+                memory_limit=0,
+                silence_logs=50,
+            )
+        with cluster:
+            yield cluster
 
 
 def dask(module: str) -> Any:  # noqa: ANN401

@@ -46,6 +46,9 @@ class Case:
 
 CASES = {
     "detect": Case(("detect", "DATA", "--out", "OUT", "--workers", "2"), "*.csv"),
+    "detect --cluster": Case(
+        ("detect", "DATA", "--out", "OUT/all.parquet", "--cluster", "local:2"), "workers"
+    ),
     "evaluate": Case(("evaluate", "DATA", "--out", "OUT", "--workers", "2"), "unfinished/*/*.json"),
     "diagnose": Case(("diagnose", "DATA", "--out", "OUT", "--workers", "2"), "unfinished/*/*.json"),
     "tables": Case(

@@ -111,3 +111,15 @@ def test_single_settings_change_those_of_a_named_method(say, hills, tmp_path, re
     published = sv.TrainingConfig.of(sv.DetectorConfig.paper())
     assert (made.reach, made.smoothness) == (reach, published.smoothness)
     assert sv.Detector.load(tmp_path / "b.npz").config.name == "paper:delta=2"
+
+
+def test_a_cluster_is_for_our_filters(say, hills):
+    words = ("train", hills, "--out", "b.npz", "--cluster", "local:2")
+    for more in (("--learn-sky", "small"), ("--workers", "2")):
+        status, _, err = say(*words, *more)
+        assert (status, err) == (
+            2,
+            "skyline-viz: --cluster is for filters, and instead of --workers.\n",
+        )
+    status, _, err = say(*words, "--method", "svm-dcsi")
+    assert (status, err) == (2, "skyline-viz: --cluster is for our filter bank, not svm-dcsi.\n")

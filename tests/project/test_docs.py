@@ -20,6 +20,7 @@ COMMANDS = (
     "detect",
     "inspect",
     "gallery",
+    "join",
     "train",
     "evaluate",
     "tables",
