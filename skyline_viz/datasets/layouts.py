@@ -201,7 +201,8 @@ def _several(tree: Tree) -> list[Path]:
     for photo in tree.photos:
         inside.setdefault(root / photo.relative_to(root).parts[0], []).append(photo)
     near = [one for one in tree.photos if len(one.relative_to(root).parts) <= _GEOPOSE3K_DEEP]
-    if _layout(root, near, tree) in ("CH1", "GeoPose3K") or any(
+    whole = _layout(root, tree.photos, tree) == "CH1" or _layout(root, near, tree) == "GeoPose3K"
+    if whole or any(
         one.name.lower() in IMAGE_FOLDERS or photos == [one] for one, photos in inside.items()
     ):
         return []
