@@ -14,6 +14,7 @@ from .datasets.layouts import DatasetItem as DatasetItem
 from .datasets.layouts import open_dataset as open_dataset
 from .datasets.predictions import Predictions as Predictions
 from .datasets.predictions import open_predictions as open_predictions
+from .detecting.filter_detection import FilterDetection as FilterDetection
 from .detection import Detection as Detection
 from .detection import solve_detection as solve_detection
 from .detector import Detector as Detector
@@ -33,7 +34,6 @@ from .evaluation.sweeping import sweep as sweep
 from .evaluation.verdict import Verdict as Verdict
 from .filter_bank import FilterBank as FilterBank
 from .filter_bank import FilterBankError as FilterBankError
-from .detecting.filter_detection import FilterDetection as FilterDetection
 from .frames.visibility import Visibility as Visibility
 from .method import Method as Method
 from .method import MethodError as MethodError

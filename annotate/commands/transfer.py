@@ -53,7 +53,7 @@ class Export:
     status: Literal["accepted", "all"] = "accepted"
     """Which labels: the accepted ones, or all that have a line."""
 
-    annotator: Annotated[str, tyro.conf.arg(metavar="NAME", aliases=["--pass"])] = ""
+    annotator: Annotated[str, tyro.conf.arg(metavar="NAME")] = ""
     """Whose labels, where there are several annotators; the consensus where there is one."""
 
     pass_number: int = 0

@@ -151,7 +151,7 @@ def export_labels(
         entries, more = with_a_line(entries, format)
         notes += more
     if not entries:
-        raise FormatError(f"there is nothing to export. {notes[0]}")
+        raise FormatError(f"there is nothing to export. {notes[-1].capitalize()}")
     notes += _lost(entries, format)
     make_folder(out.parent)
     with passing_folder(".export-", out.parent) as folder:

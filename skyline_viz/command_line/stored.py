@@ -8,6 +8,7 @@ from pathlib import Path
 
 from skyline_viz.arrays import U8
 from skyline_viz.command_line.inputs import collect, output_names
+from skyline_viz.command_line.sources import Missing
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.storage.addresses import is_address
@@ -55,7 +56,10 @@ def collect_stored(words: Sequence[str], taken: Sequence[str] = ()) -> list[Name
 
 def stored_photo(item: DatasetItem) -> StoredPhoto:
     """A photo as it travels."""
-    return item.stored if isinstance(item, StoredItem) else StoredPhoto(str(item.photo_path))
+    if isinstance(item, StoredItem):
+        return item.stored
+    reason = item.reason if isinstance(item, Missing) else ""
+    return StoredPhoto(str(item.photo_path), missing=reason)
 
 
 def photos_named(words: Sequence[str]) -> tuple[list[StoredPhoto], list[DatasetItem]]:

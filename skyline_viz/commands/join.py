@@ -13,7 +13,13 @@ from skyline_viz.command_line.messages import GOOD, UsageError, counted, tell
 
 @dataclass(frozen=True)
 class Join:
-    """Make one table of the shards that several runs of detect wrote."""
+    """Make one table of the shards that several runs of detect wrote.
+
+    Examples:
+        skyline-viz join shards --out all.parquet
+        skyline-viz join /mnt/results/alps --out alps.parquet
+        skyline-viz join . --out ../all.parquet
+    """
 
     folder: Annotated[
         Path, tyro.conf.Positional, tyro.conf.arg(metavar="DIR", help_behavior_hint="(required)")

@@ -67,7 +67,8 @@ class ProgressBar:
         """Write a line about a photo that is done."""
         named = f": {printable(what)}" if what else ""
         done = f"{self._done} of {self._total} {self._title} after {seconds:.1f} s{named}"
-        print(done, file=sys.stderr, flush=True)
+        sys.stderr.write(f"{done}\n")
+        sys.stderr.flush()
 
     def _tell(self, seconds: float) -> None:
         """Write a line into a log."""

@@ -35,6 +35,9 @@ class StoredPhoto:
     stamp: str = ""
     """What its storage says of its content; empty where it says nothing, and for files."""
 
+    missing: str = ""
+    """Why there is no photo, in a sentence; empty where there is one."""
+
     @contextmanager
     def opened(self) -> Iterator[BinaryIO]:
         """Its bytes: a file that is open, or a download that is whole.
@@ -43,6 +46,8 @@ class StoredPhoto:
             PhotoError: It is a folder, empty, or missing.
             StorageError: It cannot be downloaded.
         """
+        if self.missing:
+            raise PhotoError(self.missing)
         if not is_address(self.name):
             with reading(Path(self.name)) as file:
                 yield file

@@ -59,19 +59,19 @@ def test_an_export_takes_the_consensus_where_there_is_one(folder, tmp_path, caps
     assert run("export", folder, "--out", tmp_path / "none") == 2
     assert "which pass? There are ann 1, bob 1" in capsys.readouterr().err
     run("consensus", folder)
-    for number, words in enumerate(([], ["--pass", "consensus"], ["--annotator", "consensus"])):
+    for number, words in enumerate(([], ["--annotator", "consensus"])):
         out = tmp_path / f"out-{number}"
         assert run("export", folder, "--out", out, *words) == 0
         assert [file.name for file in out.iterdir()] == ["hill-0.csv"]
         assert "0,11,1" in (out / "hill-0.csv").read_text()
-    assert run("export", folder, "--out", tmp_path / "bob", "--pass", "bob") == 0
+    assert run("export", folder, "--out", tmp_path / "bob", "--annotator", "bob") == 0
     assert len(list((tmp_path / "bob").iterdir())) == 2
 
 
 def test_a_consensus_leaves_as_json_and_comes_back(folder, tmp_path):
     run("consensus", folder)
     out, again = tmp_path / "out", write_hills(tmp_path / "again")
-    words = ["--format", "json", "--status", "all", "--pass", "consensus", "--out", out]
+    words = ["--format", "json", "--status", "all", "--annotator", "consensus", "--out", out]
     assert run("export", folder, *words) == 0
     assert run("import", again, out) == 0
     before, after = labels(folder), labels(again)
