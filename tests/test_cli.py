@@ -9,8 +9,7 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.cli import main, parse
-from skyline_viz.commands import detect as detect_command
-from skyline_viz.running import batch
+from skyline_viz.running import batch, resume
 from testing.programs.commands import ROOT, files, program, write_scene
 
 
@@ -137,7 +136,7 @@ def test_a_fault_of_the_program_is_not_hidden(hills, monkeypatch):
     def broken(*_, **__):
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr(detect_command, "run", broken)
+    monkeypatch.setattr(resume.Kept, "run", broken)
     with pytest.raises(RuntimeError, match="a bug"):
         main(["detect", str(hills)])
 
@@ -146,7 +145,7 @@ def test_a_dead_worker_is_told(say, hills, monkeypatch):
     def dead(*_, **__):
         raise batch.BatchError("a worker process died.")
 
-    monkeypatch.setattr(detect_command, "run", dead)
+    monkeypatch.setattr(resume.Kept, "run", dead)
     assert say("detect", hills) == (1, "", "skyline-viz: a worker process died.\n")
 
 

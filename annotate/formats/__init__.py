@@ -151,7 +151,9 @@ def export_labels(
         entries, more = with_a_line(entries, format)
         notes += more
     if not entries:
-        raise FormatError(f"there is nothing to export. {notes[-1].capitalize()}")
+        raise FormatError(
+            f"there is nothing to export: {format} cannot say that nothing is visible."
+        )
     notes += _lost(entries, format)
     make_folder(out.parent)
     with passing_folder(".export-", out.parent) as folder:

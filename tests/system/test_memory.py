@@ -277,8 +277,8 @@ def test_what_does_not_fit_is_said_before_work_begins(
     asked = []
     monkeypatch.setattr(sizes, "available", lambda: free)
     monkeypatch.setattr(
-        "skyline_viz.commands.detect.run",
-        lambda function, tasks, *, workers: asked.append(workers) or [],
+        "skyline_viz.running.resume.Kept.run",
+        lambda *_, workers: asked.append(workers) or [],
     )
     main(["detect", str(photos), "--out", str(tmp_path / "out"), "--workers", workers])
     assert asked == [chosen]

@@ -296,7 +296,7 @@ def test_a_photo_without_a_visible_skyline_leaves_no_line(tmp_path, photos, kind
         (said,) = export.notes
         assert said == f"left out, because {kind} cannot say that nothing is visible: fog.png."
         with pytest.raises(
-            FormatError, match=r"nothing to export: {kind} cannot say that nothing is visible"
+            FormatError, match=f"to export: {kind} cannot say that nothing is visible"
         ):
             export_labels([blank], photos, tmp_path / "alone", kind)
     else:
