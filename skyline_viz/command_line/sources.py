@@ -5,7 +5,7 @@ from __future__ import annotations
 import glob
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -36,20 +36,28 @@ class Missing(DatasetItem):
 def named(paths: Sequence[Path]) -> Iterator[Path | Missing]:
     """What a command line names: patterns become what they match, and ``@FILE`` what it lists.
 
-    A list has a path or a pattern a line, from the folder in which the command runs; paths with
+    Raises:
+        UsageError: A list cannot be read, or is empty.
+    """
+    for word in spelt_out(map(os.fspath, paths)):
+        yield from _matched(Path(word))
+
+
+def spelt_out(words: Iterable[str]) -> Iterator[str]:
+    """The words of a command line, with what lists hold in their places.
+
+    A list has a path, a pattern or an address a line, from the folder in which the command runs; paths with
     zero bytes between them, as ``find -print0`` prints, do as well. ``@-`` is what is piped in. A
     file that is there is taken by its name, whatever is in it.
 
     Raises:
         UsageError: A list cannot be read, or is empty.
     """
-    for path in paths:
-        text = os.fspath(path)
-        if text.startswith(_LIST) and not _exists(path):
-            for line in _lines(text[1:]):
-                yield from _matched(Path(line))
+    for word in words:
+        if word.startswith(_LIST) and not _exists(Path(word)):
+            yield from _lines(word[1:])
         else:
-            yield from _matched(path)
+            yield word
 
 
 def _matched(path: Path) -> Iterator[Path | Missing]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from skyline_viz.arrays import U8
 from skyline_viz.command_line.inputs import collect, output_names
-from skyline_viz.command_line.sources import Missing
+from skyline_viz.command_line.sources import Missing, spelt_out
 from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.storage.addresses import is_address
@@ -39,13 +39,14 @@ def collect_stored(words: Sequence[str], taken: Sequence[str] = ()) -> list[Name
     """`inputs.collect`, also of addresses, which come after the paths.
 
     Args:
-        words: Paths and addresses.
+        words: Paths, patterns, addresses and lists of these.
         taken: Names that no photo's outputs may have.
 
     Raises:
         DatasetError: A folder holds no photo, or several data sets.
         StorageError: An address leads nowhere, or to no photo.
     """
+    words = [*spelt_out(words)]
     paths = [Path(word) for word in words if not is_address(word)]
     found = collect(paths, taken=taken) if paths else []
     stored = _listed(words)
@@ -66,12 +67,13 @@ def photos_named(words: Sequence[str]) -> tuple[list[StoredPhoto], list[DatasetI
     """All photos as they travel, each once; and those of them that are files.
 
     Args:
-        words: Paths and addresses.
+        words: Paths, patterns, addresses and lists of these.
 
     Raises:
         DatasetError: A folder holds no photo, or several data sets.
         StorageError: An address leads nowhere, or to no photo.
     """
+    words = [*spelt_out(words)]
     paths = [Path(word) for word in words if not is_address(word)]
     files = [one.item for one in collect(paths)] if paths else []
     return [*map(stored_photo, files), *_listed(words)], files

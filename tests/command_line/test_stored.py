@@ -42,3 +42,13 @@ def test_photos_travel_with_what_a_listing_tells(memory, tmp_path):
 def test_an_address_that_leads_nowhere_is_named():
     with pytest.raises(StorageError, match=r"^memory://gone does not exist\.$"):
         collect_stored(["memory://gone"])
+
+
+def test_a_list_may_name_both(memory, tmp_path):
+    file = write_scene(tmp_path / "c.png", 5)
+    (tmp_path / "photos.txt").write_text(f"memory://in/a.png\n{file}\n")
+    for names in (
+        [one.name for one in photos_named([f"@{tmp_path / 'photos.txt'}"])[0]],
+        [stored_photo(one.item).name for one in collect_stored([f"@{tmp_path / 'photos.txt'}"])],
+    ):
+        assert names == [str(file), "memory:///in/a.png"]
