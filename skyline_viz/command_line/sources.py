@@ -46,9 +46,9 @@ def named(paths: Sequence[Path]) -> Iterator[Path | Missing]:
 def spelt_out(words: Iterable[str]) -> Iterator[str]:
     """The words of a command line, with what lists hold in their places.
 
-    A list has a path, a pattern or an address a line, from the folder in which the command runs; paths with
-    zero bytes between them, as ``find -print0`` prints, do as well. ``@-`` is what is piped in. A
-    file that is there is taken by its name, whatever is in it.
+    A list has a path, a pattern or an address a line, from the folder in which the command runs;
+    paths with zero bytes between them, as ``find -print0`` prints, do as well. ``@-`` is what is
+    piped in. A file that is there is taken by its name, whatever is in it.
 
     Raises:
         UsageError: A list cannot be read, or is empty.

@@ -47,8 +47,7 @@ def test_an_address_that_leads_nowhere_is_named():
 def test_a_list_may_name_both(memory, tmp_path):
     file = write_scene(tmp_path / "c.png", 5)
     (tmp_path / "photos.txt").write_text(f"memory://in/a.png\n{file}\n")
-    for names in (
-        [one.name for one in photos_named([f"@{tmp_path / 'photos.txt'}"])[0]],
-        [stored_photo(one.item).name for one in collect_stored([f"@{tmp_path / 'photos.txt'}"])],
-    ):
-        assert names == [str(file), "memory:///in/a.png"]
+    words = [f"@{tmp_path / 'photos.txt'}"]
+    wanted = [str(file), "memory://in/a.png"]
+    assert [one.name for one in photos_named(words)[0]] == wanted
+    assert [stored_photo(one.item).name for one in collect_stored(words)] == wanted
