@@ -53,9 +53,11 @@ def pairs_to_try(
     Args:
         config: The settings as they are.
         single: Those of `settings_to_try`.
-        changes: Change of A_err by each alone, in pixels.
+        changes: Change of A_err by each alone that was tried, in pixels.
     """
-    helped = sorted((one for one in single if changes[one] < 0), key=lambda one: changes[one])
+    helped = sorted(
+        (one for one in single if changes.get(one, 0.0) < 0), key=lambda one: changes[one]
+    )
     pairs: dict[str, DetectorConfig] = {}
     for one, other in combinations(helped[:PAIRED], 2):
         first, second = _differing(config, single[one]), _differing(config, single[other])
