@@ -70,9 +70,13 @@ def diagnose_photos(
         kept=kept and Kept(kept.folder),  # whose counts are those of photos
         title="trying settings",
     )
-    anew = {one.name: one for one in again}
+    tried = {one.name: one.remedies for one in again}
     lost = {one.name for one in failed}
-    told = [anew.get(one.name, one) for one in found if one.name not in lost]
+    told = [
+        replace(one, remedies=tried.get(one.name, one.remedies))
+        for one in found
+        if one.name not in lost
+    ]
     return told, [*failures, *failed]
 
 
@@ -103,6 +107,8 @@ def diagnose_photo(
     found = diagnose_detection(
         task.name, detection, truth, tolerance, remedies=remedies, waiting=waiting, only=only
     )
+    if only is not None:
+        return found  # what has seen it is known since the first time
     return replace(found, seen=seen_in_training(task.method, photo, task.name))
 
 

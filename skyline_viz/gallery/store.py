@@ -174,7 +174,7 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     shown = detection.visibility
     about = {
         "method": detection.method,
-        "seen": seen_in_training(looks.method, photo, task.name),
+        "seen": seen_in_training(looks.method, photo, task.name, detection),
         "causes": causes,
         "titles": titles,
         "confidence": detection.confidence,

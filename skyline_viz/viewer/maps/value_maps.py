@@ -198,7 +198,7 @@ def _context(words: Sequence[str], colours: U8) -> rr.AnnotationContext:
     one = kind.value_type
     described = one.field("class_description").type
     ids = pa.array(np.arange(len(words), dtype=np.uint16))
-    numbers = colours.astype(np.uint32) @ np.uint32([1 << 24, 1 << 16, 1 << 8, 1])
+    numbers = np.ascontiguousarray(colours, np.uint8).view(">u4").ravel().astype(np.uint32)
     info = pa.StructArray.from_arrays(
         [ids, pa.array(words), pa.array(numbers)], fields=list(described.field("info").type)
     )
