@@ -46,8 +46,8 @@ class Diagnose(OnTruth):
     """Error up to which a column is right, in pixels; 0 takes 4, more for large photos."""
 
     no_remedies: Switch = False
-    """Do not try what would help most: other settings, on photos that are wrong, and those that help
-    there on all others."""
+    """Do not try what would help most: other settings on wrong photos, and those that help there on
+    all others."""
 
     out: OptionalFolder = None
     """Folder for segments.csv, diagnosis.json and causes.png; made where it is missing."""
