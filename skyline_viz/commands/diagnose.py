@@ -46,7 +46,8 @@ class Diagnose(OnTruth):
     """Error up to which a column is right, in pixels; 0 takes 4, more for large photos."""
 
     no_remedies: Switch = False
-    """Do not try what would help most: other settings, on all photos."""
+    """Do not try what would help most: other settings on wrong photos, and those that help there on
+    all others."""
 
     out: OptionalFolder = None
     """Folder for segments.csv, diagnosis.json and causes.png; made where it is missing."""
@@ -115,7 +116,7 @@ class Diagnose(OnTruth):
         if found:
             tell(f"{name}: {counted(len(found), 'photo')}")
             tell(*diagnosis.table(found).splitlines())
-            if helps := diagnosis.remedies_table(found):
+            if not self.no_remedies and (helps := diagnosis.remedies_table(found)):
                 tell(*helps.splitlines())
         if self.out:
             diagnosis.write_csv(self.out / "segments.csv", found)

@@ -118,6 +118,11 @@ class FilterDetection(Detection):
         """See `Detector.again`."""
         return replace(self.detector, config=config, label="").again(self)
 
+    @cached_property
+    def fingerprint(self) -> str:
+        """The fingerprint of the photo without its name, see `system.fingerprints`."""
+        return fingerprint(self.photo)
+
     def about(self) -> list[str]:
         """How it was made, in short sentences: settings, and where the filters are from."""
         changed = ", ".join(self.config.changed()) or "default settings"
@@ -129,7 +134,7 @@ class FilterDetection(Detection):
         learned = [("Filters have", self.bank.seen)]
         if self.sky is not None:
             learned.append(("The sky model has", self.detector.sky.seen))
-        own = fingerprint(self.photo) if any(others for _, others in learned) else ""
+        own = self.fingerprint if any(others for _, others in learned) else ""
         return [
             f"{settings.capitalize()}.",
             *sky,

@@ -49,11 +49,12 @@ def _band(case: Case, first: int, last: int) -> Bool:
     """``(H, W)`` the pixels around both lines in some columns, without those of a frame."""
     height, width = case.detection.edges.shape
     room = round(scaled(ROOM, height))
-    top = np.minimum(case.path_rows, case.drawn_rows) - room
-    bottom = np.maximum(case.path_rows, case.drawn_rows) + room
+    part = slice(first, last + 1)
+    top = np.minimum(case.path_rows, case.drawn_rows)[part] - room
+    bottom = np.maximum(case.path_rows, case.drawn_rows)[part] + room
     at = np.arange(height)[:, None]
-    band: Bool = (at >= top) & (at <= bottom)
-    band[:, :first] = band[:, last + 1 :] = False
+    band = np.zeros((height, width), np.bool_)
+    band[:, part] = (at >= top) & (at <= bottom)
     if isinstance(case.detection, FilterDetection):
         inside = np.zeros((height, width), np.bool_)
         inside[case.detection.frame.inside(case.detection.photo)] = True

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, replace
-from functools import cache
+from functools import cache, lru_cache
 from itertools import combinations
 from typing import Any
 
@@ -29,20 +29,47 @@ def settings_to_try(found: Detection) -> dict[str, DetectorConfig]:
     config = found.config
     if config is None or found.thresholds is None:
         return {}
-    tried: dict[str, DetectorConfig] = {}
-    for words, changes in (*_of_edges(config, found.thresholds), *_of_the_cost(config, found)):
-        tried[words] = replace(config, **changes)
-    named = {
-        words if _of_one_photo(config, changed) else f"{words} ({flags(config, changed)})": changed
-        for words, changed in tried.items()
-        if changed != config
+    tried = {
+        words: replace(config, **changes) for words, changes in _of_thresholds(found.thresholds)
+    }
+    weighed = tuple(
+        (setting, next(one.name for one in found.cost_model.terms if one.setting == setting))
+        for setting in found.cost_model.settings
+    )
+    return _named(config, tried) | _of_all_photos(config, weighed)
+
+
+@lru_cache(maxsize=8)
+def _of_all_photos(
+    config: DetectorConfig, weighed: tuple[tuple[str, str], ...]
+) -> dict[str, DetectorConfig]:
+    """Settings that do not depend on the photo, made once; see `settings_to_try`.
+
+    Args:
+        config: The settings as they are.
+        weighed: Settings that weigh a term of the cost, each with the name of a term.
+    """
+    tried = {
+        words: replace(config, **changes)
+        for words, changes in (*_of_edges(config), *_of_the_cost(config, weighed))
     }
     presets = {
         f"all settings of {name} (--preset {name})": preset
         for name, preset in _presets().items()
         if preset not in (config, *tried.values()) and type(config) is DetectorConfig
     }
-    return named | presets
+    return _named(config, tried) | presets
+
+
+def _named(
+    config: DetectorConfig, tried: Mapping[str, DetectorConfig]
+) -> dict[str, DetectorConfig]:
+    """Settings that differ, with their flags if they are the same for all photos."""
+    return {
+        words if _of_one_photo(config, changed) else f"{words} ({flags(config, changed)})": changed
+        for words, changed in tried.items()
+        if changed != config
+    }
 
 
 def pairs_to_try(
@@ -53,9 +80,11 @@ def pairs_to_try(
     Args:
         config: The settings as they are.
         single: Those of `settings_to_try`.
-        changes: Change of A_err by each alone, in pixels.
+        changes: Change of A_err by each alone that was tried, in pixels.
     """
-    helped = sorted((one for one in single if changes[one] < 0), key=lambda one: changes[one])
+    helped = sorted(
+        (one for one in single if changes.get(one, 0.0) < 0), key=lambda one: changes[one]
+    )
     pairs: dict[str, DetectorConfig] = {}
     for one, other in combinations(helped[:PAIRED], 2):
         first, second = _differing(config, single[one]), _differing(config, single[other])
@@ -64,6 +93,7 @@ def pairs_to_try(
     return pairs
 
 
+@lru_cache(maxsize=256)
 def flags(config: DetectorConfig, changed: DetectorConfig) -> str:
     """The flags that make other settings of some, to be added to a command line.
 
@@ -105,15 +135,17 @@ def _of_one_photo(config: DetectorConfig, changed: DetectorConfig) -> bool:
     return config.fit_thresholds and (changed.low_threshold, changed.high_threshold) != own
 
 
-def _of_edges(
-    config: DetectorConfig, thresholds: tuple[float, float]
-) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Settings of the edges, by what they are in words."""
+def _of_thresholds(thresholds: tuple[float, float]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Other Canny thresholds than those of a photo, by what they are in words."""
     most = most_of("low_threshold")
     for words, factor in (("half", 0.5), ("twice", 2.0)):
         low, high = (min(factor * one, most) for one in thresholds)
         fixed = {"fit_thresholds": False, "low_threshold": low, "high_threshold": high}
         yield f"{words} the Canny thresholds", fixed
+
+
+def _of_edges(config: DetectorConfig) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Settings of the edges, by what they are in words."""
     fitted = "not fitted" if config.fit_thresholds else "fitted"
     yield f"Canny thresholds {fitted} to each photo", {"fit_thresholds": not config.fit_thresholds}
     other = "colour" if config.edge_source == "grey" else "grey"
@@ -124,8 +156,10 @@ def _of_edges(
         yield from _more_or_less(config, "sky_edges", 0.3)
 
 
-def _of_the_cost(config: DetectorConfig, found: Detection) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Settings of cost and path, by what they are in words."""
+def _of_the_cost(
+    config: DetectorConfig, weighed: tuple[tuple[str, str], ...]
+) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Settings of cost and path, by what they are in words; see `_of_all_photos`."""
     yield "half the delta", {"delta": config.delta // 2}
     yield "twice the delta", {"delta": min(2 * config.delta, int(most_of("delta")))}
     percentile = config.strength_percentile
@@ -134,8 +168,7 @@ def _of_the_cost(config: DetectorConfig, found: Detection) -> Iterator[tuple[str
     if config.sky_weight:
         yield "half the limit of sky", {"sky_cap": config.sky_cap / 2}
         yield "twice the limit of sky", {"sky_cap": min(2 * config.sky_cap, most_of("sky_cap"))}
-    for setting in found.cost_model.settings:
-        term = next(one.name for one in found.cost_model.terms if one.setting == setting)
+    for setting, term in weighed:
         yield from _other_weights(config, setting, term)
 
 

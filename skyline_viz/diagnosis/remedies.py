@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -54,32 +54,51 @@ class Remedy:
     """Whether two settings were tried at once: those that helped this photo most."""
 
 
-def try_remedies(detection: Detection, truth: Skyline, found: Diagnosis) -> tuple[Remedy, ...]:
+def try_remedies(
+    detection: Detection, truth: Skyline, found: Diagnosis, only: Collection[str] | None = None
+) -> tuple[Remedy, ...]:
     """Detect with other settings, and count segments that are right then, or wrong only then.
 
     Each setting is tried alone, then pairs of those that helped most, then the larger sky model.
     Nothing is tried on detections of methods that have other settings than ours.
+
+    Args:
+        detection: The detection.
+        truth: The true line.
+        found: The diagnosis.
+        only: Names of remedies, to try these alone and no pairs; everything unless given.
     """
     if not isinstance(detection, FilterDetection):
         return ()
     case, config = Case(detection, truth, found.tolerance), detection.config
     runs = [segment.columns for segment in found.segments]
+    known: dict[bytes, Remedy] = {}  # many settings find the same line
 
     def tried(name: str, spelt: str, detector: Detector) -> Remedy:
-        return _remedy(case, runs, name, spelt, detector.rows_again(detection))
+        rows = detector.rows_again(detection)
+        line = rows.tobytes()
+        if line not in known:
+            known[line] = _remedy(case, runs, name, spelt, rows)
+        return replace(known[line], name=name, flags=spelt)
 
     def with_settings(name: str, changed: DetectorConfig) -> Remedy:
         detector = replace(detection.detector, config=changed)
         return tried(name, flags(config, changed), detector)
 
     single = settings_to_try(detection)
-    alone = [with_settings(*one) for one in single.items()]
-    pairs = pairs_to_try(config, single, {one.name: one.change for one in alone})
+    alone = [
+        with_settings(name, changed)
+        for name, changed in single.items()
+        if only is None or name in only
+    ]
+    changes = {one.name: one.change for one in alone}
+    pairs = pairs_to_try(config, single, changes) if only is None else {}
     both = [replace(with_settings(*one), pair=True) for one in pairs.items()]
-    if not (config.sky_weight and detection.detector.sky == SkyModel.small()):
+    name, ours = f"the larger sky model ({LARGER})", detection.detector
+    small = config.sky_weight and ours.sky == SkyModel.small()
+    if not small or (only is not None and name not in only):
         return (*alone, *both)
-    larger = replace(detection.detector, sky=SkyModel.large())
-    return (*alone, *both, tried(f"the larger sky model ({LARGER})", LARGER, larger))
+    return (*alone, *both, tried(name, LARGER, replace(ours, sky=SkyModel.large())))
 
 
 def ranked(remedies: Sequence[Remedy]) -> list[Remedy]:

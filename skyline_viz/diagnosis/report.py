@@ -15,7 +15,7 @@ from skyline_viz.diagnosis.by_cause import Mended, by_cause
 from skyline_viz.diagnosis.edges_anew import FACTORS
 from skyline_viz.diagnosis.record import Diagnosed
 from skyline_viz.diagnosis.remedies import best, ranked
-from skyline_viz.diagnosis.worth import worths
+from skyline_viz.diagnosis.worth import waits, worths
 from skyline_viz.evaluation.terminal import drawn
 from skyline_viz.files import replacing, write_text
 from skyline_viz.system.names import printable
@@ -48,8 +48,15 @@ def remedies_table(found: Sequence[Diagnosed]) -> str:
     """Other settings, tried on all photos: those that help, and the best one of each cause."""
     total = sum(len(one.diagnosis.segments) for one in found)
     tried = worths(found)
-    if not total or not tried:
+    if not total:
         return ""
+    if not any(one.remedies for one in found):
+        blips = all(waits(one.a_err, one.diagnosis) for one in found)
+        return "No other setting was tried: no photo is wrong by more than blips." if blips else ""
+    if not tried:
+        return (
+            "None of the settings that were tried on wrong photos makes their mean A_err smaller."
+        )
     rows = [
         [
             one.name,

@@ -9,24 +9,29 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from skyline_viz.arrays import U8
+from skyline_viz.detection import Detection
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation.results import PhotoResult
+from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.method import Method
 from skyline_viz.methods.finding.method_files import photos_seen
-from skyline_viz.system.fingerprints import fingerprint, known_as
+from skyline_viz.system.fingerprints import fingerprint, known_as, of_clip
 from skyline_viz.system.names import listed
 
 TRAINING, SKY = "training", "sky model"
 """What has learned from a photo: the method itself, or the sky model of our detector."""
 
 
-def seen_in_training(method: Method, photo: U8, name: str = "") -> str:
+def seen_in_training(
+    method: Method, photo: U8, name: str = "", found: Detection | None = None
+) -> str:
     """What of a method has learned from a photo, and how the photo is known again.
 
     Args:
         method: The method.
         photo: ``(H, W, 3)`` uint8 RGB.
         name: What the photo is called, which may tell of its clip.
+        found: A detection of it, which may know the fingerprint of its pixels.
 
     Returns:
         ``training: exact``, ``sky model: near``, or both with a semicolon between; ``near`` is a
@@ -38,9 +43,12 @@ def seen_in_training(method: Method, photo: U8, name: str = "") -> str:
         learned[SKY] = method.sky.seen
     if not any(learned.values()):
         return ""
-    own = fingerprint(photo, name)
-    found = {part: known_as(own, others) for part, others in learned.items()}
-    return "; ".join(f"{part}: {known}" for part, known in found.items() if known)
+    if isinstance(found, FilterDetection):
+        own = of_clip(found.fingerprint, photo, name)
+    else:
+        own = fingerprint(photo, name)
+    seen = {part: known_as(own, others) for part, others in learned.items()}
+    return "; ".join(f"{part}: {known}" for part, known in seen.items() if known)
 
 
 def seen_by(part: str, seen: Mapping[str, str]) -> list[str]:

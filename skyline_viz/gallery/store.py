@@ -46,6 +46,7 @@ VERSION = 8
 """Of recordings and gallery.json; all of an earlier one are made anew."""
 
 _SAVE_EVERY = 1.0  # seconds
+_SAVING = 0.02  # the most of the time that goes into saving: of many photos it takes long
 
 
 @dataclass(frozen=True)
@@ -105,16 +106,18 @@ class Gallery:
         looks = _Looks(method, beside, "".join(digests))
         tasks = [_Task(one.name, one.item, known.get(one.name)) for one in photos]
         entries = {one.name: known[one.name] for one in photos if one.name in known}
-        saved = monotonic()
+        due = monotonic() + _SAVE_EVERY
         try:
             for outcome in run(partial(_work, self, looks), tasks, workers=workers):
                 if isinstance(outcome, Entry):
                     entries[outcome.name] = outcome
                 else:
                     entries.pop(outcome.name, None)
-                if monotonic() - saved > _SAVE_EVERY:
+                begun = monotonic()
+                if begun > due:
                     self.save_entries(list(entries.values()))
                     saved = monotonic()
+                    due = saved + max(_SAVE_EVERY, (saved - begun) / _SAVING)
                 yield outcome
         finally:
             self.save_entries(list(entries.values()))
@@ -171,7 +174,7 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     shown = detection.visibility
     about = {
         "method": detection.method,
-        "seen": seen_in_training(looks.method, photo, task.name),
+        "seen": seen_in_training(looks.method, photo, task.name, detection),
         "causes": causes,
         "titles": titles,
         "confidence": detection.confidence,

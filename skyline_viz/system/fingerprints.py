@@ -64,13 +64,29 @@ def fingerprint(photo: U8, name: str = "") -> str:
     grey = cv2.cvtColor(_reduced(photo), cv2.COLOR_RGB2GRAY)
     grid = cv2.resize(grey, (_SIDE, _SIDE), interpolation=cv2.INTER_AREA).astype(np.float32)
     bits = grid - cv2.GaussianBlur(grid, (0, 0), _AROUND) > _BRIGHTER
+    own = pixels.hexdigest()[:_DIGEST] + np.packbits(bits).tobytes().hex() + _NO_CLIP
+    return of_clip(own, photo, name)
+
+
+def of_clip(own: str, photo: U8, name: str) -> str:
+    """The fingerprint of a photo with a name, which may tell of its clip.
+
+    >>> photo = np.zeros((40, 60, 3), np.uint8)
+    >>> of_clip(fingerprint(photo), photo, "clip1-1") == fingerprint(photo, "clip1-1")
+    True
+
+    Args:
+        own: That of the photo without its name.
+        photo: ``(H, W, 3)`` its pixels.
+        name: What it is called, with the folders that it lies in or without.
+    """
     clip = clip_of(name)
     named = (
         hashlib.sha256(f"{clip} {photo.shape}".encode(errors="replace")).hexdigest()
         if clip
         else _NO_CLIP
     )
-    return pixels.hexdigest()[:_DIGEST] + np.packbits(bits).tobytes().hex() + named[:_DIGEST]
+    return own[:-_DIGEST] + named[:_DIGEST]
 
 
 def clip_of(name: str) -> str:

@@ -117,6 +117,8 @@ def test_settings_are_ranked_by_what_they_are_worth(found):
 
 
 def test_where_nothing_helps_it_is_said(found):
+    some = [found[0], replace(found[2], remedies=())]
+    assert "None of the settings that were tried" in remedies_table(some)
     assert "None of these helps" not in remedies_table(found)
     assert "None of these helps" in remedies_table([photo("b", [WIRE], off=(9.0, 2))])
 

@@ -6,6 +6,7 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.detector import Detector
 from skyline_viz.diagnosis.data_set import diagnose_photos
+from skyline_viz.diagnosis.worth import worth_trying, worths
 from skyline_viz.evaluation.cross_validation import assign
 from skyline_viz.methods.edges_only import EdgesOnly
 from skyline_viz.running.resume import Kept
@@ -35,6 +36,29 @@ def test_the_wrong_photo_has_a_cause_and_remedies(items):
     assert found[2].a_err == pytest.approx(20, abs=1)
     assert found[2].remedies
     assert found[2].diagnosis.segments[0].cause
+
+
+def test_right_photos_are_tried_with_what_helps_the_wrong_one(items):
+    found, _ = diagnose_photos(tasks_of(items, Detector()))
+    names = [{remedy.name for remedy in one.remedies} for one in found]
+    assert names[0] == names[1] == worth_trying(found[2:])
+    assert names[0] < names[2]
+    assert {one.name for one in worths(found)} == names[0]
+
+
+def test_a_photo_alone_does_not_wait(items):
+    ((one,), _) = diagnose_photos(tasks_of(items[:1], Detector()))
+    assert one.diagnosis.right
+    assert len(one.remedies) > 25
+
+
+def test_a_run_that_was_interrupted_knows_both_passes(items, tmp_path):
+    kept = Kept(tmp_path)
+    (tasks,) = assign(items, [Detector()], kept=kept).tasks.values()
+    first, _ = diagnose_photos(tasks, kept=kept)
+    again, _ = diagnose_photos(tasks, kept=kept)
+    assert (kept.known, kept.asked) == (3, 6)
+    assert [one.remedies for one in first] == [one.remedies for one in again]
 
 
 def test_only_our_detector_has_settings_to_try(items):

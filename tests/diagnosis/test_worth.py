@@ -3,7 +3,7 @@
 from skyline_viz.diagnosis.diagnosing import Diagnosis
 from skyline_viz.diagnosis.record import Diagnosed
 from skyline_viz.diagnosis.remedies import Remedy
-from skyline_viz.diagnosis.worth import worths
+from skyline_viz.diagnosis.worth import waits, worth_trying, worths
 
 
 def photo(name, gross, *tried):
@@ -28,3 +28,18 @@ def test_of_equal_errors_that_with_fewer_gross_misses_comes_first():
 
 def test_nothing_tried_is_nothing_worth():
     assert worths([photo("a", True)]) == []
+
+
+def test_photos_wait_that_are_right_but_for_blips():
+    right = Diagnosis((), 4.0)
+    assert waits(1.0, right)
+    assert not waits(1.1, right)
+
+
+def test_worth_trying_is_what_helps_all_wrong_photos_or_mends_a_gross_miss():
+    found = [
+        photo("a", True, ("more", -0.2, True), ("less", 9.0, False), ("none", -0.001, True)),
+        photo("b", False, ("more", 0.1, False), ("less", 4.0, False), ("none", 0.0, False)),
+    ]
+    assert worth_trying(found) == {"more", "less"}
+    assert worth_trying([]) == frozenset()

@@ -47,3 +47,19 @@ def test_it_is_too_late_where_rerun_has_been_imported():
     before = dict(os.environ)
     import_frugally()
     assert dict(os.environ) == before
+
+
+def test_arrow_does_without_pandas_and_nobody_else_has_to():
+    program = """
+import importlib.util, sys
+import numpy as np
+from skyline_viz.viewer.frugal import import_frugally
+there = importlib.util.find_spec("pandas")
+import_frugally()
+import pyarrow as pa
+pa.array(np.zeros(3))
+pa.array(["sky"])
+assert "pandas" not in sys.modules
+assert (importlib.util.find_spec("pandas") is None) == (there is None)
+"""
+    subprocess.run([sys.executable, "-c", program], check=True)

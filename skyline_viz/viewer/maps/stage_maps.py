@@ -104,6 +104,7 @@ def log_maps(
             near.log(recording, entity, quantity, sampled)
             if quantity == STRENGTH:
                 _log_fade(recording, at(entities.ORIENTATION), near.map(quantity, sampled, COARSE))
+                let_go(recording)
         elif stage.where == "photo" and stage.quantity.smooth:  # whole even if lean
             levels = FINE if shown is None else BANDS
             dense_map(stage.quantity, stage.values, levels).log(recording, entity)
