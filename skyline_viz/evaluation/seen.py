@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from skyline_viz.arrays import U8
+from skyline_viz.detecting.filter_detection import FilterDetection
 from skyline_viz.detection import Detection
 from skyline_viz.detector import Detector
 from skyline_viz.evaluation.results import PhotoResult
-from skyline_viz.filter_detection import FilterDetection
 from skyline_viz.method import Method
 from skyline_viz.methods.finding.method_files import photos_seen
 from skyline_viz.system.fingerprints import fingerprint, known_as, of_clip
