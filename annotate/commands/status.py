@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import dataclass
 
 from annotate.commands.options import PROGRAM, PhotoFolder, opened
+from annotate.store.cards import seconds_a_photo
 from annotate.store.labels import STATUSES, named
 from skyline_viz.command_line.messages import (
     GOOD,
@@ -58,12 +59,12 @@ class Status:
         for who, number, every in passes:
             cards = [card for photo, card in every.items() if photo in present]
             counts = Counter(card.status for card in cards)
-            done = [card.seconds for card in cards if card.status in ("accepted", "rejected")]
-            each = sum(done) / len(done) if done else None
-            left = "" if each is None else spoken(each * (len(cards) - len(done)))
+            each = seconds_a_photo(cards)
+            left = len(cards) - counts["accepted"] - counts["rejected"]
             cells = [str(counts[status]) for status in STATUSES]
             seconds = "" if each is None else f"{each:.1f}"
-            table.add_row(cell(who), str(number), *cells, seconds, left)
+            time = "" if each is None else spoken(each * left)
+            table.add_row(cell(who), str(number), *cells, seconds, time)
         tell(f"{counted(len(present), 'photo')} in {self.folder}")
         if passes:
             tell_drawn(table, width=100)

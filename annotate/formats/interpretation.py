@@ -53,6 +53,10 @@ def interpret(
         return
     for name in lost:
         found.note("labels belong to no photo of the folder", name)
+    for one in drawings:
+        if one.tags and not one.shapes:  # as of a photo in which nothing is visible
+            name = one.names[0] if one.names else "(no name)"
+            found.note("left out, with tags but without a line or a region", name)
     if others:
         told = labels_found(shape for one in others for shape in one.shapes)
         for one in others:

@@ -38,7 +38,8 @@ class Choice:
 def spans_apart(state: State, line: Skyline | None) -> list[tuple[int, int]]:
     """First and last column of the spans in which passes differ and nobody has decided.
 
-    Whoever changes the line in a span decides, and whoever takes that of a pass, be it the same.
+    Whoever changes the line in a span decides, or which columns are visible there, and whoever
+    takes the line of a pass, be it the same.
 
     Args:
         state: A label of the consensus; of any other there are none.
@@ -47,7 +48,10 @@ def spans_apart(state: State, line: Skyline | None) -> list[tuple[int, int]]:
     found = state.consensus
     if found is None or line is None:
         return []
-    waits = np.array(found.rows) == line.rows  # it is of all columns
+    visible = np.ones(len(line.rows), bool)
+    for first, last in found.hidden:
+        visible[first : last + 1] = False
+    waits = (np.array(found.rows) == line.rows) & (visible == line.visible)  # of all columns
     for change in state.done[state.done.index(found) :]:
         if isinstance(change, Take):
             waits[change.first : change.first + len(change.rows)] = False

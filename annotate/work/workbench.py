@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from annotate.store.cards import Card
+from annotate.store.cards import Card, seconds_a_photo
 from annotate.store.store import Photo, Store
 from annotate.work.joined import Joined, joined
 from annotate.work.open_photos import (
@@ -74,7 +74,7 @@ class Progress:
     """All photos."""
 
     seconds_a_photo: float | None
-    """Mean time of those that are done; None before the first one."""
+    """Mean time of those that are done; None where none of them took any."""
 
     seconds_left: float | None
     """Time that the others will take."""
@@ -137,8 +137,7 @@ class Workbench:
     def progress(self, cards: list[Card]) -> Progress:
         """How far the pass is, by its `cards`."""
         done = [card for card in cards if card.status in ("accepted", "rejected")]
-        timed = [card.seconds for card in done]
-        each = sum(timed) / len(timed) if timed else None
+        each = seconds_a_photo(cards)
         left = None if each is None else each * (len(cards) - len(done))
         return Progress(len(done), len(cards), each, left)
 

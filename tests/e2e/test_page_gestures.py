@@ -198,7 +198,12 @@ def test_several_photos_are_chosen_tagged_accepted_and_taken_back(page):
     items = page.page.locator(".item")
     items.nth(1).click(modifiers=["Control"])
     items.nth(3).click(modifiers=["Shift"])
-    assert page.page.locator("#chosen-count").inner_text() == "3 photos chosen"
+    count = page.page.locator("#chosen-count")
+    assert count.inner_text() == "3 photos chosen"
+    page.page.locator("#search").fill("hill-1")  # what is decided about is still told
+    assert count.inner_text() == "3 photos chosen, 2 not listed"
+    page.page.locator("#search").fill("")
+    assert count.inner_text() == "3 photos chosen"
     page.page.locator("#chosen-tags").click()
     page.page.keyboard.press("1")
     page.page.keyboard.press("Escape")

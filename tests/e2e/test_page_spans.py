@@ -211,6 +211,17 @@ def test_a_finger_that_rests_chooses_and_taps_choose_more(browser, client, where
     page.close()
 
 
+def test_on_a_phone_the_list_leaves_what_is_said_and_its_undo_in_sight(browser, client):
+    page = Page(browser, client, has_touch=True, viewport=PHONE)
+    page.page.locator("#list-toggle").tap()
+    rest(page, page.page.locator(".item").nth(1))
+    page.page.locator("#chosen-accept").tap()
+    page.says("1 photo is accepted.")
+    page.page.locator("#said-undo").tap()
+    page.says("hill-1.png is to do again.")
+    page.close()
+
+
 def test_the_header_undoes_a_corner_of_a_guide(page):
     undo = page.page.locator("#undo")
     assert undo.is_disabled()

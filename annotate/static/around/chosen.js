@@ -20,6 +20,8 @@ export class Chosen extends Events {
   #ids = new Set();
   /** @type {number | null} */
   #last = null; // from which Shift chooses
+  /** @type {Set<number>} */
+  #listed = new Set();
   #pressed = false; // whether fingers choose: each tap does, until none is chosen
 
   /**
@@ -89,6 +91,16 @@ export class Chosen extends Events {
   }
 
   /**
+   * Others are listed now: whoever decides about chosen photos is told how many of them are not seen.
+   *
+   * @param {ShownPhoto[]} photos
+   */
+  list(photos) {
+    this.#listed = new Set(photos.map(({ id }) => id));
+    this.#showCount();
+  }
+
+  /**
    * Give all of them a status.
    *
    * @param {Status} status
@@ -116,7 +128,12 @@ export class Chosen extends Events {
     const focused = box("chosen").contains(document.activeElement);
     box("chosen").hidden = !this.#ids.size;
     if (focused && !this.#ids.size) this.#focus(); // not lost with the button
-    box("chosen-count").textContent = `${counted(this.#ids.size, "photo")} chosen`;
+    this.#showCount();
     this.tell("change");
+  }
+
+  #showCount() {
+    const away = [...this.#ids].filter((id) => !this.#listed.has(id)).length;
+    box("chosen-count").textContent = `${counted(this.#ids.size, "photo")} chosen${away ? `, ${away} not listed` : ""}`;
   }
 }

@@ -77,6 +77,7 @@ export class PhotoList {
     const wanted = select("filter").value;
     this.#found = this.#labelling.photos.filter((photo) =>
       matches(photo, wanted) && photo.name.toLowerCase().includes(words));
+    this.#chosen.list(this.#found);
     this.#inner.style.height = `${this.#found.length * HEIGHT}px`;
     this.#showProgress();
     this.#draw();

@@ -47,3 +47,15 @@ def test_what_lies_above_the_sky_hides_it(tmp_path, photos):
     found = imported(made.written(tmp_path / "a.json", labelme(sky)), photos)
     is_right(found)
     assert any("counts as sky" in note for note in found.notes)
+
+
+def test_a_photo_that_has_tags_alone_is_named(tmp_path, photos):
+    folder = tmp_path / "labels"
+    folder.mkdir()
+    made.written(folder / "a.json", labelme(shape(OUTLINE, "sky", "polygon")))
+    bare = {**labelme(), "imagePath": "b.png", "flags": {"no visible skyline": True}}
+    made.written(folder / "b.json", bare)
+    found = imported(folder, photos)
+    assert found.notes == ("left out, with tags but without a line or a region: b.png.",)
+    made.written(folder / "b.json", {**bare, "flags": {"no visible skyline": False}})
+    assert imported(folder, photos).notes == ()  # nothing was said of it

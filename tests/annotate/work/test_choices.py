@@ -30,6 +30,25 @@ def test_spans_wait_until_somebody_has_changed_the_line_there():
     assert spans_apart(State(Edits(48, 100)), LINE) == []
 
 
+def test_whoever_hides_columns_or_shows_them_has_decided():
+    operation = Consensus(
+        first=0,
+        rows=[10] * 100,
+        origins=[("solved", 100)],
+        hidden=[(60, 69)],
+        of=["ann", "bob"],
+        apart=[(20, 29), (60, 69)],
+    )
+    waiting = State(Edits(48, 100)).after(operation, 1.0, 1)
+    visible = np.ones(100, bool)
+    visible[60:70] = False
+    assert spans_apart(waiting, Skyline(rows=[10] * 100, visible=visible)) == [(20, 29), (60, 69)]
+    visible[22:25] = False
+    assert spans_apart(waiting, Skyline(rows=[10] * 100, visible=visible)) == [(60, 69)]
+    visible[60:70] = True
+    assert spans_apart(waiting, Skyline(rows=[10] * 100, visible=visible)) == []
+
+
 @pytest.mark.parametrize(
     ("column", "span"), [(0, (20, 29)), (25, (20, 29)), (44, (20, 29)), (46, (60, 69))]
 )
