@@ -65,10 +65,21 @@ def _matched(path: Path) -> Iterator[Path | Missing]:
     if _exists(path) or not glob.has_magic(os.fspath(path)):
         yield path
         return
-    found = sorted(glob.glob(os.fspath(path), recursive=True))  # noqa: PTH207  # of absolute paths
-    yield from map(Path, found)
+    found = glob.glob(os.fspath(path), recursive=True)  # noqa: PTH207  # of absolute paths
+    yield from sorted(_once(map(Path, found)))
     if not found:
         yield Missing(path.name, path, reason=f"{path} matches no file.")
+
+
+def _once(paths: Iterable[Path]) -> Iterator[Path]:
+    """Paths without those that a link to a folder leads to again, as one in a circle does."""
+    seen: set[str] = set()
+    real: dict[Path, str] = {}  # a folder of many photos is resolved once
+    for path in sorted(paths, key=lambda one: (len(one.parts), one)):
+        home = real.get(path.parent) or real.setdefault(path.parent, os.path.realpath(path.parent))
+        if (place := f"{home}{os.sep}{path.name}") not in seen:
+            seen.add(place)
+            yield path
 
 
 def _exists(path: Path) -> bool:

@@ -2,7 +2,8 @@
 
 A truth beside a photo is called as the photo is. One in a folder of truths also lies as deep below
 it as the photo lies below the folder that holds it: ``masks/day1/a.png`` is of ``day1/a.jpg``, and
-of ``images/day1/a.jpg``. ``masks/day1__a.png`` is as well, for so exports are called.
+of ``images/day1/a.jpg``. ``masks/day1__a.png`` is as well, and ``masks/images__day1__a.png`` of the
+second, for so exports are called.
 """
 
 from __future__ import annotations
@@ -93,8 +94,9 @@ def _keys_of_photo(tree: Tree, photo: Path) -> Iterator[_Key]:
             if inside:
                 yield above, inside[:-1], common_name(inside[-1])
         yield above, inside, name
-        if inside:
-            yield above, (), "__".join((*inside, name))
+        whole = home.relative_to(above).parts
+        for folders in filter(None, dict.fromkeys((inside, whole))):
+            yield above, (), "__".join((*folders, photo.stem))
         if above == tree.root:
             return
         above = above.parent

@@ -229,7 +229,7 @@ class _Names:
             self._put(0, name, name, name.replace("/", "-"), name.replace("/", "__"))
             if isinstance(item, DatasetItem) and not item.label_map:
                 self._put(0, name, item.photo_path.name)
-                self._put(1, name, item.photo_path.stem)
+                self._put(1, name, item.photo_path.stem, *_with_folders(item.photo_path))
             self._put(2, name, common_name(name.rpartition("/")[2]))
 
     def _put(self, rank: int, photo: str, *spelled: str) -> None:
@@ -246,6 +246,13 @@ class _Names:
                 if found := ways.get(one.casefold()):
                     return set(found)
         return set()
+
+
+def _with_folders(photo: Path) -> Iterator[str]:
+    """What an export calls a photo, whichever folder above it was labelled: ``images__a``."""
+    folders = photo.parent.parts[-_DEEP:]
+    for first in range(len(folders)):
+        yield "__".join((*folders[first:], photo.stem))
 
 
 def _files(root: Path) -> list[Path]:

@@ -17,6 +17,8 @@ PROGRESS_AFTER = 1.0
 LINE_EVERY = 60.0
 """Seconds between two lines in a log: enough to see that a long run is alive."""
 
+_COUNTED = ("photos", "scenes", "steps", "values")  # titles that say what is counted
+
 
 class ProgressBar:
     """A bar on stderr, once the work has taken a while; a line a minute where that is no terminal.
@@ -66,18 +68,22 @@ class ProgressBar:
     def _tell_one(self, seconds: float, what: str) -> None:
         """Write a line about a photo that is done."""
         named = f": {printable(what)}" if what else ""
-        done = f"{self._done} of {self._total} {self._title} after {seconds:.1f} s{named}"
-        sys.stderr.write(f"{done}\n")
+        sys.stderr.write(f"{self._how_many()} after {seconds:.1f} s{named}\n")
         sys.stderr.flush()
 
     def _tell(self, seconds: float) -> None:
         """Write a line into a log."""
         minutes = seconds / 60
         left = minutes / self._done * (self._total - self._done)
-        done = f"{self._done} of {self._total} {self._title}"
-        told = f"{done} after {minutes:.0f} min, about {left:.0f} min left"
+        told = f"{self._how_many()} after {minutes:.0f} min, about {left:.0f} min left"
         sys.stderr.write(f"{printable(told)}\n")
         sys.stderr.flush()
+
+    def _how_many(self) -> str:
+        number = f"{self._done} of {self._total}"
+        if self._title in _COUNTED:
+            return f"{number} {self._title}"
+        return f"{self._title}: {number}"
 
     def _show(self) -> "tuple[Progress, TaskID]":
         from rich.console import Console  # noqa: PLC0415  # a single photo never needs it

@@ -35,6 +35,18 @@ def test_patterns_in_quotes(album):
     assert missing.reason == "*.gif matches no file."
 
 
+def test_a_pattern_does_not_follow_a_circle_of_links(album):
+    Path("day1/back").symlink_to("..")
+    Path("day1/c.png").symlink_to("a.png")
+    assert said("**/*.png") == [
+        "day1/a.png",
+        "day1/c.png",
+        "day1/far/b.png",
+        "day2/a[1].png",
+        "top.png",
+    ]
+
+
 def test_a_file_with_the_signs_of_a_pattern_is_itself(album):
     assert said("day2/a[1].png") == ["day2/a[1].png"]
     Path("@list.png").touch()

@@ -58,6 +58,14 @@ def test_names_of_published_layouts_and_of_our_outputs_are_known(tmp_path):
     assert {*found.lines} == {"cvg/IMG_1", "panoramio/IMG_1", "cvg/b"}
 
 
+def test_an_export_of_a_data_set_names_the_folders_of_its_photos(tmp_path):
+    items = plain(tmp_path / "set", "a", "day/b")
+    for name in ("images__a", "set__images__day__b"):
+        SKYLINE.write_csv(tmp_path / "lines" / f"{name}.csv")
+    found = sv.open_predictions(tmp_path / "lines", items)
+    assert (set(found.lines), found.extra) == ({"a", "day/b"}, ())
+
+
 def test_a_name_that_several_photos_share_is_not_guessed(tmp_path):
     ch1(tmp_path / "ch1")
     items = sv.open_dataset(tmp_path / "ch1")

@@ -5,6 +5,8 @@ import operator
 import sys
 from types import SimpleNamespace
 
+import pytest
+
 from skyline_viz.running import progress
 from skyline_viz.running.batch import run
 
@@ -35,11 +37,14 @@ def test_no_bar_for_a_moment(monkeypatch):
     assert terminal.getvalue() == ""
 
 
-def test_a_line_now_and_then_in_a_file(monkeypatch, capsys):
+@pytest.mark.parametrize(
+    ("title", "counted"), [("photos", "2 of 4 photos"), ("training", "training: 2 of 4")]
+)
+def test_a_line_now_and_then_in_a_file(monkeypatch, capsys, title, counted):
     times = iter([0.0, 30.0, 90.0, 100.0, 300.0])
     monkeypatch.setattr(progress, "perf_counter", lambda: next(times))
-    list(run(operator.attrgetter("name"), tasks(4)))
-    assert capsys.readouterr().err == "2 of 4 photos after 2 min, about 2 min left\n"
+    list(run(operator.attrgetter("name"), tasks(4), title=title))
+    assert capsys.readouterr().err == f"{counted} after 2 min, about 2 min left\n"
 
 
 def test_no_bar_in_a_file(monkeypatch, capsys):
