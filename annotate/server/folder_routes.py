@@ -14,6 +14,7 @@ from annotate.server.messages import (
     ShownPhoto,
     ShownProgress,
 )
+from annotate.store.labels import CONSENSUS
 from annotate.work.guideline import own_guideline
 from annotate.work.learning import Learning
 
@@ -35,6 +36,7 @@ def photos(bench: Bench) -> PhotoList:
         folder=bench.store.folder.resolve().name,
         annotator=who.annotator,
         number=who.number,
+        ahead="needs review" if who.annotator == CONSENSUS else "to do",
         photos=[ShownPhoto.of(one, missing=not bench.store.is_here(one.photo)) for one in cards],
         progress=ShownProgress.of(bench.progress(cards)),
     )

@@ -212,6 +212,9 @@ class PhotoList(BaseModel):
     folder: str
     annotator: str
     number: int
+    ahead: Status
+    """Status of the photos that are to be worked on: in the consensus those that need review."""
+
     photos: list[ShownPhoto]
     progress: ShownProgress
 

@@ -171,6 +171,7 @@ export interface PhotoList {
   folder: string;
   annotator: string;
   number: number;
+  ahead: Status;
   photos: ShownPhoto[];
   progress: ShownProgress;
 }

@@ -134,15 +134,15 @@ class GalleryCommand:
             raise UsageError(f"--{ways[0]} and --{ways[1]} exclude each other.")
         if self.html and self.cause:
             raise UsageError("--cause is for the viewer; the page of --html has a filter for it.")
-        if not ways and not _has_display():
-            raise UsageError(NO_DISPLAY)
         inputs = collect(self.photos, self.truths)
         if self.html:
             title = self.photos[0].resolve().name
             chosen = self.methods.chosen()
             return write_pages(self.html, title, inputs, chosen, self.out, self.workers)
-        output_folder(self.out, (one.item for one in inputs))
         method, *beside = self._methods()
+        if not ways and not _has_display():
+            raise UsageError(NO_DISPLAY)
+        output_folder(self.out, (one.item for one in inputs))
         entries, failures = build(self.out, inputs, method, self.workers, *beside)
         if not entries:
             return status_after(failures) or SOME_FAILED

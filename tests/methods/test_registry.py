@@ -162,7 +162,7 @@ def test_commands_compare_train_and_detect(folder, tmp_path, capsys):
 def test_the_command_writes_tables(folder, tmp_path, capsys):
     words = ["tables", str(folder), "--out", str(tmp_path), "--method", "paper", "edges"]
     assert main([*words, "--no-studies"]) == 0
-    assert "## Table I: A_err of earlier methods" in capsys.readouterr().out
+    assert "Table I: A_err of earlier methods" in capsys.readouterr().out
     assert (tmp_path / "tables.md").read_text().count("## Table") == 4
     assert r"\begin{tabular}" in (tmp_path / "tables.tex").read_text()
     assert (tmp_path / "histogram.png").exists()

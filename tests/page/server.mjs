@@ -64,7 +64,7 @@ export class Server {
 
   #respond(path, body) {
     if (path === "api/legend") return [200, LEGEND];
-    if (path === "api/photos") return [200, { folder: "alps", annotator: "ann", number: 2, photos: this.list.map((one) => ({ ...one })), progress: {} }];
+    if (path === "api/photos") return [200, { folder: "alps", annotator: "ann", number: 2, ahead: "to do", photos: this.list.map((one) => ({ ...one })), progress: {} }];
     const id = Number(/photos\/(\d+)/.exec(path)[1]);
     if (path.endsWith("/margins")) return [200, { revision: 0, margins: [1, 2, 3], uncertain: [0] }];
     if (!this.documents.has(id)) return [410, { detail: `hill-${id}.png has vanished.` }];

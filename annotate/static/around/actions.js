@@ -251,7 +251,7 @@ export class Actions extends Events {
   async #openNext(done) {
     const labelling = this.#labelling;
     const next = labelling.following();
-    if (!next) return " No photo is to do any more.";
+    if (!next) return ` No photo ${labelling.ahead === "to do" ? "is to do" : "needs review"} any more.`;
     if (!await labelling.open(next.id)) return null;
     if (done && !labelling.document?.carried) this.#follow([[done]]); // else Undo is of what was carried over
     return this.#doubts();

@@ -39,7 +39,7 @@ async function start(labelling, instead) {
   await labelling.load();
   await recover(labelling);
   const open = labelling.photos.filter((one) => !one.missing && !one.too_large);
-  const first = open.find((one) => one.status === "to do" || one.status === "in progress") ?? labelling.photos[0];
+  const first = open.find((one) => one.status === labelling.ahead || one.status === "in progress") ?? labelling.photos[0];
   if (first) await labelling.open(first.id);
   else instead("There is no photo to label.");
 }

@@ -41,6 +41,8 @@ export class Labelling extends Events {
   progress = null;
   folder = "";
   annotator = "";
+  /** @type {Status} - Status of the photos that are to be worked on. */
+  ahead = "to do";
   /** @type {Document | null} */
   document = null;
   /** @type {ImageBitmap | null} */
@@ -76,6 +78,7 @@ export class Labelling extends Events {
     this.photos = list.photos;
     this.progress = list.progress;
     this.folder = list.folder;
+    this.ahead = list.ahead;
     this.annotator = list.number > 1 ? `${list.annotator}, pass ${list.number}` : list.annotator;
     this.tell("list");
   }
@@ -120,11 +123,11 @@ export class Labelling extends Events {
     return true;
   }
 
-  /** The next photo that is to do; undefined when all are done. */
+  /** The next photo that is to be worked on; undefined when all are done. */
   following() {
     const from = this.place + 1;
     return [...this.photos.slice(from), ...this.photos.slice(0, Math.max(from - 1, 0))]
-      .find((photo) => photo.status === "to do" && !photo.missing && !photo.too_large);
+      .find((photo) => photo.status === this.ahead && !photo.missing && !photo.too_large);
   }
 
   /**

@@ -110,7 +110,7 @@ def test_it_is_diagnosed(drop, hills, capsys):
 def test_it_is_in_the_tables(drop, hills, capsys):
     words = ["tables", "hills", "--method", "default", "drop:Drop", "--no-studies", "--out", "t"]
     assert main(words) == 0
-    assert "| drop |" in capsys.readouterr().out
+    assert re.search(r"│ drop +│|^ *drop ", capsys.readouterr().out, re.MULTILINE)
 
 
 @pytest.mark.parametrize("methods", [["drop:Drop"], ["default", "drop:Drop:blur=6"]])
