@@ -9,6 +9,7 @@ from annotate.store.identity import Photo
 from annotate.store.labels import Comment
 from annotate.store.standings import Standing
 
+_WORK = 0.5  # seconds: nobody looks at a photo for less
 _NOBODY: Mapping[int, tuple[str, ...]] = MappingProxyType({})
 
 
@@ -42,7 +43,7 @@ def seconds_a_photo(cards: Iterable[Card]) -> float | None:
     once. Nothing tells then how long the others will take.
     """
     taken = [card.seconds for card in cards if card.status in ("accepted", "rejected")]
-    return sum(taken) / len(taken) if any(taken) else None
+    return sum(taken) / len(taken) if max(taken, default=0.0) >= _WORK else None
 
 
 @dataclass(frozen=True)

@@ -53,4 +53,5 @@ def test_how_long_a_photo_takes_is_not_known_from_those_that_took_no_time(store)
 
     assert taken(Standing("in progress", (), 9.0)) is None
     assert taken(Standing("accepted"), Standing("rejected")) is None  # at once, and unopened
+    assert taken(Standing("accepted", (), 0.004)) is None  # by a program, in two steps
     assert taken(Standing("accepted", (), 3.0), Standing("rejected", (), 5.0)) == 4.0
