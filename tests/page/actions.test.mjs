@@ -251,3 +251,13 @@ test("accepting a photo without a visible skyline says that its line does not co
   await actions.finish("accepted");
   assert.equal(said.at(-1).text, "hill-1.png is accepted, with no visible skyline: its line does not count.");
 });
+
+test("what was said of what is undone, or done again, does not stay", () => {
+  anchor();
+  labelling.say("The anchor is at column 1.");
+  actions.undo();
+  assert.equal(said.at(-1).text, "");
+  labelling.say("The anchor is gone.");
+  actions.redo();
+  assert.equal(said.at(-1).text, "");
+});

@@ -276,15 +276,19 @@ export class Actions extends Events {
     const photo = this.#shown();
     const says = this.undoes;
     if (last) this.#takeBack(last);
-    else if (photo && says) labelling.send(photo, { what: "undo", says: `undoing ${says}` });
-    else labelling.say(this.#sheet.shown ? "Nothing was done on this page of the sheet that could be taken back." : "There is nothing to undo.");
+    else if (photo && says) {
+      labelling.say(""); // what was said was of what is taken back
+      labelling.send(photo, { what: "undo", says: `undoing ${says}` });
+    } else labelling.say(this.#sheet.shown ? "Nothing was done on this page of the sheet that could be taken back." : "There is nothing to undo.");
   }
 
   /** Do again what was taken back. */
   redo() {
     const photo = this.#shown();
-    if (photo && this.redoes) this.#labelling.send(photo, { what: "redo", says: "redoing" });
-    else this.#labelling.say("There is nothing to redo.");
+    if (photo && this.redoes) {
+      this.#labelling.say("");
+      this.#labelling.send(photo, { what: "redo", says: "redoing" });
+    } else this.#labelling.say("There is nothing to redo.");
   }
 
   /** Tags of the photo. */
