@@ -102,7 +102,8 @@ class Cluster:
         try:
             send = self._sender(function)
             while True:
-                for part in itertools.islice(coming, threads.most() - len(waiting)):
+                room = threads.most() - len(waiting)  # under 0 where workers have gone
+                for part in itertools.islice(coming, max(0, room)):
                     waiting.append((part, send(part)))
                 if not waiting:
                     return
