@@ -7,7 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skyline_viz.command_line.messages import UsageError, counted, say, status_after, tell
+from skyline_viz.command_line.clusters import on_cluster
+from skyline_viz.command_line.messages import UsageError, counted, status_after, tell
 from skyline_viz.command_line.sizes import foresee
 from skyline_viz.command_line.stored import photos_named
 from skyline_viz.running.batch import run
@@ -71,7 +72,6 @@ def detect_to_table(
         cluster: Address of a cluster, or ``local:N``.
         shard: The part to do.
     """
-    from skyline_viz.running.cluster import cluster_at
     from skyline_viz.running.line_run import detect_into
 
     photos, files = photos_named(words)
@@ -79,13 +79,9 @@ def detect_to_table(
         photos = [one for one in photos if shard.holds(one.name)]
         files = [one for one in files if shard.holds(str(one.photo_path))]
         about = {**about, "shard": str(shard)}
-    if cluster is None:
-        processes = foresee(files, workers) if files else workers
+    processes = foresee(files, workers) if files and cluster is None else workers
+    with on_cluster(cluster, workers):
         done = detect_into(table, photos, method, partial(run, workers=processes), about)
-    else:
-        with cluster_at(cluster) as there:
-            say(f"the cluster shows what it does at {there.link}")
-            done = detect_into(table, photos, method, there.run, about)
     if done.known:
         were = "was" if done.known == 1 else "were"
         tell(f"{done.known} of {counted(done.photos, 'photo')} {were} done already.")

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from skyline_viz import evaluation
+from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import (
     GOOD,
     UsageError,
     counted,
-    say,
     status_after,
     tell,
     tell_done,
@@ -204,14 +204,11 @@ class Train:
         self, sets: Mapping[str, Sequence[DatasetItem]], training: TrainingConfig
     ) -> tuple[FilterBank, list[Failure]]:
         """The bank, gathered in processes or on a cluster."""
+        workers = self.workers
         if self.cluster is None:
-            workers = foresee([item for items in sets.values() for item in items], self.workers)
+            workers = foresee([item for items in sets.values() for item in items], workers)
+        with on_cluster(self.cluster, self.workers):
             return evaluation.train_on_several(sets, training, seed=self.seed, workers=workers)
-        from skyline_viz.running.cluster import cluster_at
-
-        with cluster_at(self.cluster) as there:
-            say(f"the cluster shows what it does at {there.link}")
-            return evaluation.train_on_several(sets, training, seed=self.seed, cluster=there)
 
     def _pretrained(self, method: Configurable) -> Configurable:
         from skyline_viz.methods.parsing import SceneParsing
