@@ -86,4 +86,4 @@ def detect_to_table(
         were = "was" if done.known == 1 else "were"
         tell(f"{done.known} of {counted(done.photos, 'photo')} {were} done already.")
     tell(f"{counted(done.photos - len(done.failures), 'skyline')} in {table}")
-    return status_after(done.failures)
+    return status_after([*done.failures, *done.unseen])
