@@ -62,13 +62,41 @@ def train_on_several(
     Raises:
         ValueError: Every single photo of a data set failed, or there is none.
     """
-    sums = []
+    sums = {}
     failures: list[Failure] = []
-    for items in datasets.values():
+    for name, items in datasets.items():
         total, failed = _gather_all(items, training, seed, workers)
-        sums.append(total)
+        sums[name] = total
         failures += failed
-    return solve(together(sums), seed, training, ", ".join(datasets)), failures
+    return solve_several(sums, training, seed), failures
+
+
+def gather_several(
+    datasets: Mapping[str, Sequence[Item]],
+    training: TrainingConfig,
+    *,
+    seed: int = 0,
+    workers: int = 1,
+) -> tuple[dict[str, GramMatrices], list[Failure]]:
+    """Gather what `train_on_several` solves, of a part of the photos: a data set may have none."""
+    work, parts = partial(gather_item, training, seed), [*datasets.values()]
+    sums, failures = sums_of(work, parts, workers=workers, title="training")
+    totals = (GramMatrices.empty(training) if one is None else one for one in sums)
+    return dict(zip(datasets, totals, strict=True)), failures
+
+
+def solve_several(
+    sums: Mapping[str, GramMatrices], training: TrainingConfig, seed: int = 0
+) -> FilterBank:
+    """The bank of what was gathered from several data sets, each counting alike.
+
+    Raises:
+        ValueError: One of them has no photo with a true skyline.
+    """
+    if empty := [name for name, one in sums.items() if one.images == 0]:
+        raise ValueError(f"training needs at least one photo with a true skyline of {empty[0]}.")
+    told = [replace(one, seen=telling(one.seen)) for one in sums.values()]
+    return solve(together(told), seed, training, ", ".join(sums))
 
 
 def train_sizes(
