@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 class OnTruth:
     """Options of a command that tests methods on photos with truth."""
 
-    dataset: Annotated[Path, tyro.conf.Positional, tyro.conf.arg(metavar="DATASET")]
-    """Folder of a data set with truths, in a published layout or plain."""
+    dataset: Annotated[str, tyro.conf.Positional, tyro.conf.arg(metavar="DATASET")]
+    """Folder or address of a data set with truths, in a published layout or plain."""
 
     folds: FoldOptions = field(default_factory=Folds)
     """Whether photos are cross-validated, and how they are dealt into folds."""

@@ -73,11 +73,11 @@ class GalleryCommand:
     """
 
     photos: Annotated[
-        tuple[Path, ...],
+        tuple[str, ...],
         tyro.conf.Positional,
         tyro.conf.arg(metavar="PHOTO"),
     ] = ()
-    """Photos, folders of photos, or data sets."""
+    """Photos, folders of photos, or data sets, by paths or addresses."""
 
     out: Folder = Path("skyline-gallery")
     """Folder of the gallery: recordings, gallery.json, flags.json. What is there is not redone."""
@@ -149,7 +149,7 @@ class GalleryCommand:
             raise UsageError(NO_DISPLAY)
         inputs = collect(self.photos, self.truths)
         if self.html:
-            title = self.photos[0].resolve().name
+            title = Path(self.photos[0]).resolve().name
             chosen = self.methods.chosen()
             return write_pages(
                 self.html, title, inputs, chosen, self.out, self.workers, self.cluster

@@ -49,12 +49,12 @@ class Train:
     """
 
     datasets: Annotated[
-        tuple[Path, ...],
+        tuple[str, ...],
         tyro.conf.Positional,
         tyro.conf.arg(metavar="DATASET"),
     ]
-    """Folders of data sets with truths, in a published layout or plain; each counts alike,
-    whatever the number of its photos."""
+    """Folders or addresses of data sets with truths, in a published layout or plain; each counts
+    alike, whatever the number of its photos."""
 
     out: Annotated[Path, tyro.conf.arg(metavar="FILE")]
     """File for the detector, usually .npz; a file that is there is replaced."""
