@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -17,6 +18,9 @@ from skyline_viz.running.shards import Shard
 
 if TYPE_CHECKING:
     from skyline_viz.method import Method
+
+
+_ADDRESS = re.compile(r"[a-z][a-z0-9+.-]+:/", re.ASCII)  # of which a path keeps one stroke
 
 
 def is_table_name(out: Path) -> bool:
@@ -40,8 +44,11 @@ def table_of(out: Path, shard: Shard | None) -> Path:
     """The file to write: the output itself, or that of a shard in it.
 
     Raises:
-        UsageError: There is a folder where a file is to be, or the other way round.
+        UsageError: It is an address, or there is a folder where a file is to be, or the other way
+            round.
     """
+    if _ADDRESS.match(out.as_posix()) and not Path(out.parts[0]).exists():
+        raise UsageError(f"{out} is an address; name a file of this machine, and copy it there.")
     if shard is None:
         if out.is_dir():
             raise UsageError(f"{out} is a folder of shards; name a file, or a --shard.")
