@@ -26,7 +26,7 @@ NO_PHOTOS = "which photos? Name at least one photo or folder."
 
 
 def collect(
-    paths: Sequence[Path], truths: Truths | None = None, taken: Sequence[str] = ()
+    paths: Sequence[str | Path], truths: Truths | None = None, taken: Sequence[str] = ()
 ) -> list[NamedItem]:
     """Photos of a command line: files as they are, folders as data sets; each path once.
 
@@ -34,7 +34,7 @@ def collect(
     that holds no photo, beside others that do.
 
     Args:
-        paths: Files, folders, patterns and lists, see `sources.named`.
+        paths: Files, folders, patterns, addresses and lists, see `sources.named`.
         truths: How to read the truths of data sets.
         taken: Names that no photo's outputs may have.
 

@@ -13,6 +13,7 @@ from skyline_viz.command_line.folds import FoldOptions, Folds
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.methods import MethodOptions, Methods
+from skyline_viz.command_line.settings import ClusterAddress
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.system.memory import DETECTING, MAX_MEGAPIXELS
@@ -28,8 +29,8 @@ if TYPE_CHECKING:
 class OnTruth:
     """Options of a command that tests methods on photos with truth."""
 
-    dataset: Annotated[Path, tyro.conf.Positional, tyro.conf.arg(metavar="DATASET")]
-    """Folder of a data set with truths, in a published layout or plain."""
+    dataset: Annotated[str, tyro.conf.Positional, tyro.conf.arg(metavar="DATASET")]
+    """Folder or address of a data set with truths, in a published layout or plain."""
 
     folds: FoldOptions = field(default_factory=Folds)
     """Whether photos are cross-validated, and how they are dealt into folds."""
@@ -45,6 +46,10 @@ class OnTruth:
 
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
+
+    cluster: ClusterAddress = None
+    """Work on a cluster instead: tcp://HOST:PORT, the address of a dask scheduler, or local:N for
+    one of N processes on this machine. Its machines share the folders of photos and of --out."""
 
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
@@ -85,5 +90,7 @@ class OnTruth:
         """
         if out:
             output_folder(out, dataset)
-        workers = foresee(items, self.workers, bytes_a_pixel)
+        workers = self.workers
+        if self.cluster is None:
+            workers = foresee(items, workers, bytes_a_pixel)
         return workers, running.Kept.within(out, command)

@@ -12,6 +12,8 @@ from pathlib import Path
 from skyline_viz.arrays import U8
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.datasets.layouts import DatasetError, DatasetItem
+from skyline_viz.storage.addresses import is_address
+from skyline_viz.storage.copies import copied
 
 _LIST = "@"
 _MOST_BYTES = 100_000_000  # of a list
@@ -33,14 +35,17 @@ class Missing(DatasetItem):
         raise DatasetError(self.reason)
 
 
-def named(paths: Sequence[Path]) -> Iterator[Path | Missing]:
+def named(paths: Sequence[str | Path]) -> Iterator[Path | Missing]:
     """What a command line names: patterns become what they match, and ``@FILE`` what it lists.
+
+    An address becomes the folder of its copy.
 
     Raises:
         UsageError: A list cannot be read, or is empty.
+        StorageError: An address leads nowhere.
     """
-    for word in spelt_out(map(os.fspath, paths)):
-        yield from _matched(Path(word))
+    for word in spelt_out(os.fspath(one) for one in paths):
+        yield from [copied(word)] if is_address(word) else _matched(Path(word))
 
 
 def spelt_out(words: Iterable[str]) -> Iterator[str]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skyline_viz.command_line.messages import UsageError, counted, say, status_after, tell
+from skyline_viz.command_line.clusters import on_cluster
+from skyline_viz.command_line.messages import UsageError, counted, status_after, tell
 from skyline_viz.command_line.sizes import foresee
 from skyline_viz.command_line.stored import photos_named
 from skyline_viz.running.batch import run
@@ -16,6 +18,9 @@ from skyline_viz.running.shards import Shard
 
 if TYPE_CHECKING:
     from skyline_viz.method import Method
+
+
+_ADDRESS = re.compile(r"[a-z][a-z0-9+.-]+:/", re.ASCII)  # of which a path keeps one stroke
 
 
 def is_table_name(out: Path) -> bool:
@@ -39,8 +44,11 @@ def table_of(out: Path, shard: Shard | None) -> Path:
     """The file to write: the output itself, or that of a shard in it.
 
     Raises:
-        UsageError: There is a folder where a file is to be, or the other way round.
+        UsageError: It is an address, or there is a folder where a file is to be, or the other way
+            round.
     """
+    if _ADDRESS.match(out.as_posix()) and not Path(out.parts[0]).exists():
+        raise UsageError(f"{out} is an address; name a file of this machine, and copy it there.")
     if shard is None:
         if out.is_dir():
             raise UsageError(f"{out} is a folder of shards; name a file, or a --shard.")
@@ -71,7 +79,6 @@ def detect_to_table(
         cluster: Address of a cluster, or ``local:N``.
         shard: The part to do.
     """
-    from skyline_viz.running.cluster import cluster_at
     from skyline_viz.running.line_run import detect_into
 
     photos, files = photos_named(words)
@@ -79,15 +86,11 @@ def detect_to_table(
         photos = [one for one in photos if shard.holds(one.name)]
         files = [one for one in files if shard.holds(str(one.photo_path))]
         about = {**about, "shard": str(shard)}
-    if cluster is None:
-        processes = foresee(files, workers) if files else workers
+    processes = foresee(files, workers) if files and cluster is None else workers
+    with on_cluster(cluster, workers):
         done = detect_into(table, photos, method, partial(run, workers=processes), about)
-    else:
-        with cluster_at(cluster) as there:
-            say(f"the cluster shows what it does at {there.link}")
-            done = detect_into(table, photos, method, there.run, about)
     if done.known:
         were = "was" if done.known == 1 else "were"
         tell(f"{done.known} of {counted(done.photos, 'photo')} {were} done already.")
     tell(f"{counted(done.photos - len(done.failures), 'skyline')} in {table}")
-    return status_after(done.failures)
+    return status_after([*done.failures, *done.unseen])

@@ -30,14 +30,19 @@ class Truths:
         if self.sky is not None and self.terrain is not None:
             raise ValueError("--sky and --terrain exclude each other: what is not one is the other")
 
-    def open(self, folder: Path) -> Dataset:
-        """Open a data set whose truths are read in this way.
+    def open(self, folder: str | Path) -> Dataset:
+        """Open a data set, a folder or an address, whose truths are read in this way.
 
         Raises:
+            StorageError: The address leads nowhere.
             DatasetError: As `skyline_viz.open_dataset`.
         """
         from skyline_viz.datasets.layouts import open_dataset
+        from skyline_viz.storage.addresses import is_address
+        from skyline_viz.storage.copies import copied
 
+        if is_address(folder):
+            folder = copied(str(folder))
         return open_dataset(folder, sky=self.sky, terrain=self.terrain)
 
     def open_all(self, folder: Path) -> list[Dataset]:

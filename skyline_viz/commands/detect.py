@@ -154,8 +154,6 @@ class Detect:
         for option in ("mask", "overlay", "json"):
             if getattr(self, option):
                 raise UsageError(f"--{option} writes files into a folder: name one with --out DIR.")
-        if self.cluster is not None and self.workers:
-            raise UsageError("--workers are processes of this machine, and --cluster has its own.")
         shard = shard_of(self.shard)
         about = began.told(detector, self.methods.bank, self._options())
         return detect_to_table(

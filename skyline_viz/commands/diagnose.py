@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from skyline_viz import diagnosis, evaluation
+from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.command_line.messages import (
     UsageError,
     counted,
@@ -25,8 +26,10 @@ from skyline_viz.system.nearest import nearest
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from skyline_viz.datasets import Dataset, DatasetItem
     from skyline_viz.diagnosis import Diagnosed
     from skyline_viz.method import Method
+    from skyline_viz.running import Kept
 
 
 @dataclass(frozen=True)
@@ -57,8 +60,6 @@ class Diagnose(OnTruth):
 
     def run(self) -> int:
         """Diagnose all photos that have a truth; return the exit status."""
-        from skyline_viz.evaluation.seen import notes as seen_notes
-
         diagnosis.checked_tolerance(self.tolerance)
         check_report(self.report)
         dataset, items = self.open()
@@ -67,6 +68,14 @@ class Diagnose(OnTruth):
             better = f"; did you mean {near}?" if near else "."
             raise UsageError(f"{dataset.name} has no photo {self.photo} with a truth{better}")
         workers, kept = self.begin("diagnose", dataset, items, self.out, RECORDING)
+        with on_cluster(self.cluster, self.workers, self.out):
+            return self._work(dataset, items, workers, kept)
+
+    def _work(
+        self, dataset: Dataset, items: Sequence[DatasetItem], workers: int, kept: Kept
+    ) -> int:
+        from skyline_viz.evaluation.seen import notes as seen_notes
+
         groups = self.folds.groups(items, workers) if self.folds.asked else None
         folds = self.folds.dealt(items, groups)
         assigned = evaluation.assign(

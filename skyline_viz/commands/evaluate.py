@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from skyline_viz import evaluation, methods
+from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.command_line.lines import (
     LineFolders,
     about_lines,
@@ -28,10 +29,12 @@ from skyline_viz.system.names import listed
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from skyline_viz.datasets import Dataset
+    from skyline_viz.datasets import Dataset, DatasetItem
+    from skyline_viz.datasets.predictions import Predictions
     from skyline_viz.evaluation import Evaluation
     from skyline_viz.evaluation.cross_validation import Tested
     from skyline_viz.method import Method
+    from skyline_viz.running import Kept
     from skyline_viz.running.batch import Failure
 
 
@@ -66,6 +69,17 @@ class Evaluate(OnTruth):
                 "a report shows stages, which files of lines have not; name a --method."
             )
         workers, kept = self.begin("evaluate", dataset, items, self.out)
+        with on_cluster(self.cluster, self.workers, self.out):
+            return self._work(dataset, items, lines, workers, kept)
+
+    def _work(
+        self,
+        dataset: Dataset,
+        items: Sequence[DatasetItem],
+        lines: Sequence[Predictions],
+        workers: int,
+        kept: Kept,
+    ) -> int:
         groups = self.folds.groups(items, workers)
         folds = self.folds.dealt(items, groups)
         said = self.folds.said(folds, groups)

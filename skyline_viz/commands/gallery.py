@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
+from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.command_line.inputs import collect, output_folder
 from skyline_viz.command_line.messages import (
     GOOD,
@@ -24,7 +25,13 @@ from skyline_viz.command_line.messages import (
     tell_row,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import Folder, OptionalFolder, Switch, check_picture
+from skyline_viz.command_line.settings import (
+    ClusterAddress,
+    Folder,
+    OptionalFolder,
+    Switch,
+    check_picture,
+)
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.commands.gallery_pages import write_pages
@@ -66,11 +73,11 @@ class GalleryCommand:
     """
 
     photos: Annotated[
-        tuple[Path, ...],
+        tuple[str, ...],
         tyro.conf.Positional,
         tyro.conf.arg(metavar="PHOTO"),
     ] = ()
-    """Photos, folders of photos, or data sets."""
+    """Photos, folders of photos, or data sets, by paths or addresses."""
 
     out: Folder = Path("skyline-gallery")
     """Folder of the gallery: recordings, gallery.json, flags.json. What is there is not redone."""
@@ -107,6 +114,10 @@ class GalleryCommand:
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
 
+    cluster: ClusterAddress = None
+    """Work on a cluster instead: tcp://HOST:PORT, the address of a dask scheduler, or local:N for
+    one of N processes on this machine. Its machines share the folders of photos and of --out."""
+
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
 
@@ -136,14 +147,17 @@ class GalleryCommand:
             raise UsageError("--cause is for the viewer; the page of --html has a filter for it.")
         inputs = collect(self.photos, self.truths)
         if self.html:
-            title = self.photos[0].resolve().name
+            title = Path(self.photos[0]).resolve().name
             chosen = self.methods.chosen()
-            return write_pages(self.html, title, inputs, chosen, self.out, self.workers)
+            return write_pages(
+                self.html, title, inputs, chosen, self.out, self.workers, self.cluster
+            )
         method, *beside = self._methods()
         if not ways and not _has_display():
             raise UsageError(NO_DISPLAY)
         output_folder(self.out, (one.item for one in inputs))
-        entries, failures = build(self.out, inputs, method, self.workers, *beside)
+        with on_cluster(self.cluster, self.workers, self.out):
+            entries, failures = build(self.out, inputs, method, self.workers, *beside)
         if not entries:
             return status_after(failures) or SOME_FAILED
         words = filter_words(self.cause) if self.cause else ""

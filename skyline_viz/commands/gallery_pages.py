@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.command_line.inputs import output_folder
 from skyline_viz.command_line.messages import SOME_FAILED, UsageError, counted, status_after, tell
 from skyline_viz.command_line.sizes import foresee
@@ -25,6 +26,7 @@ def write_pages(
     methods: Sequence[Method],
     kept: Path,
     workers: int,
+    cluster: str | None = None,
 ) -> int:
     """Detect, diagnose where there is a truth, and write the pages; return the exit status.
 
@@ -35,6 +37,7 @@ def write_pages(
         methods: What detects: one of them.
         kept: Folder of the gallery in which photos were reviewed and commented.
         workers: Number of processes.
+        cluster: Address of a cluster instead, or ``local:N``.
 
     Raises:
         UsageError: There are several methods, or the folder holds something else.
@@ -56,8 +59,11 @@ def write_pages(
         said = [("reviewed", flag.reviewed), ("commented", bool(flag.comment))]
         tags.setdefault(name, []).extend(word for word, true in said if true)
     tasks = photo_tasks([(replace(one.item, name=one.name), methods[0]) for one in inputs])
-    workers = foresee((one.item for one in inputs), workers, RECORDING)
-    found, failures = write_gallery(out, title, methods[0].name, tasks, tags=tags, workers=workers)
+    planned = foresee((one.item for one in inputs), workers, RECORDING)
+    with on_cluster(cluster, workers, out):
+        found, failures = write_gallery(
+            out, title, methods[0].name, tasks, tags=tags, workers=planned
+        )
     if found:
         tell(f"{counted(len(found), 'photo')}; open {out / INDEX} in a browser")
     return status_after(failures) or (0 if found else SOME_FAILED)

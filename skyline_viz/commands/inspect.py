@@ -69,11 +69,12 @@ class Inspect:
     """
 
     photos: Annotated[
-        tuple[Path, ...],
+        tuple[str, ...],
         tyro.conf.Positional,
         tyro.conf.arg(metavar="PHOTO"),
     ]
-    """Photos, folders of photos, or data sets; several share one recording, a photo a step."""
+    """Photos, folders of photos, or data sets, by paths or addresses; several share one recording,
+    a photo a step."""
 
     save: Annotated[Path | None, tyro.conf.arg(metavar="FILE.rrd")] = None
     """Write the recording to a file instead of opening the viewer; with --split, into a folder."""
@@ -132,7 +133,7 @@ class Inspect:
         if self.sweep and len(inputs) > 1:
             raise UsageError(f"--sweep belongs to one photo, and there are {len(inputs)}.")
         if self.report:
-            title = inputs[0].name if len(inputs) == 1 else self.photos[0].resolve().name
+            title = inputs[0].name if len(inputs) == 1 else Path(self.photos[0]).resolve().name
             items = [replace(self._with_truth(one), name=one.name) for one in inputs]
             return write_report(self.report, title, items, self.methods.chosen())
         failures: list[Failure] = []
@@ -249,7 +250,7 @@ class Inspect:
         files: list[Path] = []
         with ProgressBar(len(inputs), "photos") as bar:
             for group in groups:
-                name = group[0].name if len(group) == 1 else self.photos[0].resolve().name
+                name = group[0].name if len(group) == 1 else Path(self.photos[0]).resolve().name
                 total = sum(pixels.get(one.name, 0) for one in group)
                 fidelity = fidelity_of(total, self.full_megapixels, alone=len(group) == 1)
                 together = self.save if not self.split else None

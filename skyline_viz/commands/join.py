@@ -13,11 +13,11 @@ from skyline_viz.command_line.messages import GOOD, UsageError, counted, tell
 
 @dataclass(frozen=True)
 class Join:
-    """Make one table of the shards that several runs of detect wrote.
+    """Make one table of the shards of detect, or one detector of those of train.
 
     Examples:
         skyline-viz join shards --out all.parquet
-        skyline-viz join /mnt/results/alps --out alps.parquet
+        skyline-viz join bank-shards --out bank.npz
         skyline-viz join . --out ../all.parquet
     """
 
@@ -26,8 +26,8 @@ class Join:
     ]
     """Folder of all shards, the --out of the runs with --shard."""
 
-    out: Annotated[Path, tyro.conf.arg(metavar="FILE.parquet")]
-    """File for the table; a file that is there is replaced."""
+    out: Annotated[Path, tyro.conf.arg(metavar="FILE")]
+    """FILE.parquet for the table, or FILE.npz for the detector; what is there is replaced."""
 
     def run(self) -> int:
         """Join the shards; return the exit status."""
@@ -36,7 +36,28 @@ class Join:
 
         if not self.folder.is_dir():
             raise UsageError(f"{self.folder} is no folder of shards.")
+        if self.out.suffix.lower() == ".npz" and not self.out.is_dir():
+            return self._train()
         if self.out.suffix.lower() != SUFFIX or self.out.is_dir():
-            raise UsageError(f"name a file that ends in {SUFFIX} for the table, not {self.out}.")
+            raise UsageError(
+                f"name a file that ends in {SUFFIX} for a table, or in .npz for a detector, not "
+                f"{self.out}."
+            )
         tell(f"{counted(join(self.folder, self.out), 'photo')} in {self.out}")
+        return GOOD
+
+    def _train(self) -> int:
+        """Solve what shards of a training have gathered."""
+        from skyline_viz.commands.train import save_trained
+        from skyline_viz.detector import Detector
+        from skyline_viz.evaluation.training_runs import solve_several
+        from skyline_viz.methods.registry import find_method
+        from skyline_viz.running.gram_shards import joined
+
+        found = joined(self.folder)
+        method = find_method(found.method)
+        if not isinstance(method, Detector):
+            raise UsageError(f"the shards of {self.folder} are of no detector of ours.")
+        bank = solve_several(found.sets, found.training, found.seed)
+        save_trained(self.out, method, bank, found.photos, found.training)
         return GOOD

@@ -9,18 +9,19 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from skyline_viz import evaluation
+from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import (
     GOOD,
     UsageError,
     counted,
-    say,
     status_after,
     tell,
     tell_done,
 )
 from skyline_viz.command_line.settings import ClusterAddress, Preset, RunFile
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
+from skyline_viz.command_line.to_table import shard_of
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.files import replacing
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from skyline_viz.detector import Detector
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Configurable
-    from skyline_viz.running.batch import Failure
+    from skyline_viz.running.shards import Shard
 
 
 @dataclass(frozen=True)
@@ -48,12 +49,12 @@ class Train:
     """
 
     datasets: Annotated[
-        tuple[Path, ...],
+        tuple[str, ...],
         tyro.conf.Positional,
         tyro.conf.arg(metavar="DATASET"),
     ]
-    """Folders of data sets with truths, in a published layout or plain; each counts alike,
-    whatever the number of its photos."""
+    """Folders or addresses of data sets with truths, in a published layout or plain; each counts
+    alike, whatever the number of its photos."""
 
     out: Annotated[Path, tyro.conf.arg(metavar="FILE")]
     """File for the detector, usually .npz; a file that is there is replaced."""
@@ -94,6 +95,10 @@ class Train:
     """Gather on a cluster instead: tcp://HOST:PORT, the address of a dask scheduler, or local:N for
     one of N processes on this machine. For our filters; the bank is the same to the bit."""
 
+    shard: Annotated[str | None, tyro.conf.arg(metavar="I/N")] = None
+    """Gather from this part of the photos only, such as 3/8; FILE is then a folder of parts, of
+    which join makes the detector, the same to the bit. For our filters."""
+
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
 
@@ -104,8 +109,13 @@ class Train:
         """Train on all photos that have a truth; return the exit status."""
         if not self.datasets:
             raise UsageError("which data sets? Name at least one folder.")
-        if self.out.is_dir():
+        shard = shard_of(self.shard)
+        if shard is None and self.out.is_dir():
             raise UsageError(f"{self.out} is a folder; name a file for the detector.")
+        if shard is not None and (self.out.is_file() or self.learn_sky is not None):
+            raise UsageError(
+                f"--shard is for filters, and shards go into a folder, not into {self.out}."
+            )
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
         if self.cluster is not None and (self.learn_sky is not None or self.workers):
@@ -127,7 +137,9 @@ class Train:
             )
         method = find_method(self.method)
         if isinstance(method, Detector):
-            return self._train_ours(sets, photos, method)
+            return self._train_ours(sets, photos, method, shard)
+        if shard is not None:
+            raise UsageError(f"--shard is for our filter bank, not {self.method}.")
         return self._train_method(sets, method)
 
     def _sets(self, *, all_photos: bool = False) -> tuple[dict[str, list[DatasetItem]], int]:
@@ -173,10 +185,17 @@ class Train:
         return status_after(failures)
 
     def _train_ours(
-        self, sets: Mapping[str, Sequence[DatasetItem]], photos: int, method: Detector
+        self,
+        sets: Mapping[str, Sequence[DatasetItem]],
+        photos: int,
+        method: Detector,
+        shard: Shard | None,
     ) -> int:
         if self.pretrained is not None:
             raise UsageError("--pretrained is for FCNs and SegNet, not for our filter bank.")
+        from skyline_viz.evaluation.training_runs import gather_several
+        from skyline_viz.running.gram_shards import SUFFIX, Gathered, write_gathered
+
         training = self.training
         if method.config != DetectorConfig() and (
             self.preset != "default" or training.detector != method.config
@@ -185,33 +204,29 @@ class Train:
                 f"settings are given twice; leave out --preset and --training.detector, or "
                 f"name default instead of {self.method}."
             )
-        bank, failures = self._gathered(sets, training)
-        trained = replace(method, bank=bank, config=training.detector)
-        trained.save(self.out)
-        tell(f"photos used   {bank.provenance.images} of {photos} in {bank.provenance.dataset}")
-        tell(f"samples       {bank.samples.sum():,}, flipped ones included")
-        tell(f"starved bins  {_starved(bank, training)}")
-        tell(f"filters       {bank.size} x {bank.size} pixels")
-        tell(f"settings      {training.detector.name}")
-        tell(
-            f"learned with  reach {training.reach}, smoothness {training.smoothness:g}, "
-            f"pooling {training.pooling:g}"
-        )
-        tell_done(f"written       {self.out}, {self.out.stat().st_size:,} bytes")
-        return status_after(failures)
-
-    def _gathered(
-        self, sets: Mapping[str, Sequence[DatasetItem]], training: TrainingConfig
-    ) -> tuple[FilterBank, list[Failure]]:
-        """The bank, gathered in processes or on a cluster."""
+        workers = self.workers
+        if shard is not None:
+            sets = {
+                name: [one for one in items if shard.holds(one.name)]
+                for name, items in sets.items()
+            }
         if self.cluster is None:
-            workers = foresee([item for items in sets.values() for item in items], self.workers)
-            return evaluation.train_on_several(sets, training, seed=self.seed, workers=workers)
-        from skyline_viz.running.cluster import cluster_at
-
-        with cluster_at(self.cluster) as there:
-            say(f"the cluster shows what it does at {there.link}")
-            return evaluation.train_on_several(sets, training, seed=self.seed, cluster=there)
+            workers = foresee([item for items in sets.values() for item in items], workers)
+        with on_cluster(self.cluster, self.workers):
+            if shard is None:
+                bank, failures = evaluation.train_on_several(
+                    sets, training, seed=self.seed, workers=workers
+                )
+            else:
+                sums, failures = gather_several(sets, training, seed=self.seed, workers=workers)
+        if shard is None:
+            save_trained(self.out, method, bank, photos, training)
+            return status_after(failures)
+        file = self.out / shard.file_of(SUFFIX)
+        write_gathered(file, Gathered(self.method, training, self.seed, photos, sums))
+        used = sum(one.images for one in sums.values())
+        tell_done(f"Gram matrices of {counted(used, 'photo')} in {file}")
+        return status_after(failures)
 
     def _pretrained(self, method: Configurable) -> Configurable:
         from skyline_viz.methods.parsing import SceneParsing
@@ -242,6 +257,32 @@ class Train:
         tell(f"{method.name}, trained on {counted(len(items), 'photo')} of {dataset}")
         tell_done(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
         return GOOD
+
+
+def save_trained(
+    out: Path, method: Detector, bank: FilterBank, photos: int, training: TrainingConfig
+) -> None:
+    """Write a detector with what it has learned, and say what that was.
+
+    Args:
+        out: File to write.
+        method: The detector.
+        bank: What it has learned.
+        photos: Photos that there were, with a truth or without.
+        training: How it has learned.
+    """
+    trained = replace(method, bank=bank, config=training.detector)
+    trained.save(out)
+    tell(f"photos used   {bank.provenance.images} of {photos} in {bank.provenance.dataset}")
+    tell(f"samples       {bank.samples.sum():,}, flipped ones included")
+    tell(f"starved bins  {_starved(bank, training)}")
+    tell(f"filters       {bank.size} x {bank.size} pixels")
+    tell(f"settings      {training.detector.name}")
+    tell(
+        f"learned with  reach {training.reach}, smoothness {training.smoothness:g}, "
+        f"pooling {training.pooling:g}"
+    )
+    tell_done(f"written       {out}, {out.stat().st_size:,} bytes")
 
 
 def _starved(bank: FilterBank, training: TrainingConfig) -> str:

@@ -15,6 +15,7 @@ from skyline_viz.method import AddingLearner, Learner, Method, MethodError
 from skyline_viz.methods.registry import load_method, save_method
 from skyline_viz.running.batch import Failure, run, sentence
 from skyline_viz.running.resume import Kept, digest_of, digest_of_item, digest_of_method
+from skyline_viz.running.sums import sums_of
 
 
 @dataclass(frozen=True)
@@ -82,16 +83,12 @@ class Folds:
         key = self._key(method)
         if known := self._known(method, key):
             return known
-        sums: list[Any] = [None] * self.count
-        unusable: list[Failure] = []
-        work = partial(_gather, method, self.seed)
-        gathered = run(work, self.items, workers=self.workers, title=f"training {method.name}")
-        for index, outcome in enumerate(gathered):
-            fold = self.of[index]
-            if isinstance(outcome, Failure):
-                unusable.append(outcome)
-            else:
-                sums[fold] = outcome if sums[fold] is None else sums[fold] + outcome
+        parts: list[list[Item]] = [[] for _ in range(self.count)]
+        for item, fold in zip(self.items, self.of, strict=True):
+            parts[fold].append(item)
+        work, title = partial(_gather, method, self.seed), f"training {method.name}"
+        sums, unusable = sums_of(work, parts, workers=self.workers, title=title)
+        unusable.sort(key=lambda failure: failure.name)
         methods: list[Method | None] = []
         failures: dict[Failure, None] = {}
         for fold in range(self.count):
@@ -195,7 +192,7 @@ def _fit(lesson: _Lesson) -> Learner:
     return learned
 
 
-def _gather(method: AddingLearner[Any], seed: int, item: Item) -> object:
+def _gather(method: AddingLearner[Any], seed: int, item: Item) -> Any:  # noqa: ANN401
     return method.gather(item, seed)
 
 

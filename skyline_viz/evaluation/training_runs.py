@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
 
 from skyline_viz.config import FILTER_SIZES, TrainingConfig
 from skyline_viz.datasets.item import Item
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.running.batch import Failure, run
+from skyline_viz.running.batch import Failure
+from skyline_viz.running.sums import sums_of
 from skyline_viz.system.fingerprints import telling
 from skyline_viz.training import GramMatrices, gather_item, solve, together
-
-if TYPE_CHECKING:
-    from skyline_viz.running.cluster import Cluster
 
 
 def train_on(
@@ -50,7 +47,6 @@ def train_on_several(
     *,
     seed: int = 0,
     workers: int = 1,
-    cluster: Cluster | None = None,
 ) -> tuple[FilterBank, list[Failure]]:
     """Learn a filter bank from several data sets, each of which counts as much as each other one.
 
@@ -59,7 +55,6 @@ def train_on_several(
         training: How samples are drawn and filters are solved.
         seed: Seed of the negative samples.
         workers: Number of processes, see `batch.run`.
-        cluster: Where to gather instead; the bank is the same.
 
     Returns:
         The bank, and the photos that failed.
@@ -67,13 +62,41 @@ def train_on_several(
     Raises:
         ValueError: Every single photo of a data set failed, or there is none.
     """
-    sums = []
+    sums = {}
     failures: list[Failure] = []
-    for items in datasets.values():
-        total, failed = _gather_all(items, training, seed, workers, cluster)
-        sums.append(total)
+    for name, items in datasets.items():
+        total, failed = _gather_all(items, training, seed, workers)
+        sums[name] = total
         failures += failed
-    return solve(together(sums), seed, training, ", ".join(datasets)), failures
+    return solve_several(sums, training, seed), failures
+
+
+def gather_several(
+    datasets: Mapping[str, Sequence[Item]],
+    training: TrainingConfig,
+    *,
+    seed: int = 0,
+    workers: int = 1,
+) -> tuple[dict[str, GramMatrices], list[Failure]]:
+    """Gather what `train_on_several` solves, of a part of the photos: a data set may have none."""
+    work, parts = partial(gather_item, training, seed), [*datasets.values()]
+    sums, failures = sums_of(work, parts, workers=workers, title="training")
+    totals = (GramMatrices.empty(training) if one is None else one for one in sums)
+    return dict(zip(datasets, totals, strict=True)), failures
+
+
+def solve_several(
+    sums: Mapping[str, GramMatrices], training: TrainingConfig, seed: int = 0
+) -> FilterBank:
+    """The bank of what was gathered from several data sets, each counting alike.
+
+    Raises:
+        ValueError: One of them has no photo with a true skyline.
+    """
+    if empty := [name for name, one in sums.items() if one.images == 0]:
+        raise ValueError(f"training needs at least one photo with a true skyline of {empty[0]}.")
+    told = [replace(one, seen=telling(one.seen)) for one in sums.values()]
+    return solve(together(told), seed, training, ", ".join(sums))
 
 
 def train_sizes(
@@ -107,24 +130,11 @@ def _gather_all(
     training: TrainingConfig,
     seed: int,
     workers: int = 1,
-    cluster: Cluster | None = None,
 ) -> tuple[GramMatrices, list[Failure]]:
     """Summed Gram matrices of all photos, and the photos that failed."""
-    total = GramMatrices.empty(training)
-    failures: list[Failure] = []
     work = partial(gather_item, training, seed)
-    if cluster is not None:
-        from skyline_viz.running.cluster_sums import summed  # noqa: PLC0415 - of an extra
-
-        found, failures = summed(cluster, work, items, title="training")
-        total = total if found is None else found
-    else:
-        for outcome in run(work, items, workers=workers, title="training"):
-            if isinstance(outcome, Failure):
-                failures.append(outcome)
-            else:
-                total += outcome
-    if total.images == 0:
+    (total,), failures = sums_of(work, [items], workers=workers, title="training")
+    if total is None:
         reason = f", and the first one failed: {failures[0]}" if failures else "."
         raise ValueError(f"training needs at least one photo with a true skyline{reason}")
     return replace(total, seen=telling(total.seen)), failures

@@ -8,6 +8,7 @@ from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextvars import ContextVar
 from dataclasses import dataclass
 from itertools import chain, islice
 from multiprocessing.synchronize import Event
@@ -66,6 +67,38 @@ Task = TypeVar("Task", bound=Named)
 Value = TypeVar("Value")
 
 
+class Executor(Protocol):
+    """Something else than this machine's processes that works on photos, as a cluster is."""
+
+    def run(
+        self, function: Callable[[Task], Value], tasks: Sequence[Task], *, title: str = "photos"
+    ) -> Iterator[Value | Failure]:
+        """What `run` does."""
+
+    def summed(
+        self, function: Callable[[Task], Value], tasks: Sequence[Task], *, title: str = "photos"
+    ) -> tuple[Value | None, list[Failure]]:
+        """The sum of what `run` gives, None where that is nothing, and what failed."""
+
+
+_elsewhere: ContextVar[Executor | None] = ContextVar("elsewhere", default=None)
+
+
+@contextlib.contextmanager
+def working_on(executor: Executor) -> Iterator[None]:
+    """Let an executor do all that `run` is asked for in the block, whatever the workers."""
+    before = _elsewhere.set(executor)
+    try:
+        yield
+    finally:
+        _elsewhere.reset(before)
+
+
+def elsewhere() -> Executor | None:
+    """What works in place of this machine's processes; None where nothing does."""
+    return _elsewhere.get()
+
+
 def run(
     function: Callable[[Task], Value],
     tasks: Sequence[Task],
@@ -77,7 +110,8 @@ def run(
 
     With several workers the tasks, the values and the function are sent between processes, so all
     of them must be picklable; a few tasks a worker are under way at a time. On a terminal a
-    progress bar appears on stderr when the work takes longer than a second.
+    progress bar appears on stderr when the work takes longer than a second. In a block of
+    `working_on` all this is done there.
 
     Args:
         function: What to do; at the top level of a module, or a `functools.partial` of such.
@@ -90,6 +124,9 @@ def run(
         BatchError: A worker process died, or the work cannot be sent to one.
         OSError: The disk is full or read-only.
     """
+    if (executor := elsewhere()) is not None:
+        yield from executor.run(function, tasks, title=title)
+        return
     workers = chosen_workers(workers, len(tasks))
     if workers == 1:
         outcomes = _one_by_one(function, tasks)

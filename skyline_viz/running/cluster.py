@@ -13,11 +13,13 @@ import itertools
 import platform
 import re
 import secrets
+import tempfile
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from multiprocessing import resource_tracker
+from pathlib import Path
 from time import monotonic
 from typing import Any, TypeVar
 
@@ -92,6 +94,29 @@ class Cluster:
                 bar.advance()
                 yield outcome
 
+    def summed(
+        self, function: Callable[[Task], Value], tasks: Sequence[Task], *, title: str = "photos"
+    ) -> tuple[Value | None, list[Failure]]:
+        """The sum of ``function(task)`` over all tasks, see `cluster_sums.summed`."""
+        from skyline_viz.running.cluster_sums import summed  # noqa: PLC0415 - which imports this
+
+        return summed(self, function, tasks, title=title)
+
+    def check_shared(self, folder: Path) -> None:
+        """Make sure that workers write into the very folder that this program sees.
+
+        Raises:
+            ClusterError: One of them sees another one, or none.
+        """
+        with tempfile.NamedTemporaryFile(dir=folder, prefix=".shared-") as mark:
+            seen = self.client.run(_exists_there, str(folder / Path(mark.name).name))
+        for worker, there in seen.items():
+            if not there:
+                raise ClusterError(
+                    f"the worker {worker} does not see the folder {folder}; name one that all "
+                    f"machines share, by its whole path."
+                )
+
     def _outcomes(
         self, function: Callable[[Task], Value], tasks: Sequence[Task]
     ) -> Generator[Value | Failure, None, None]:
@@ -102,7 +127,8 @@ class Cluster:
         try:
             send = self._sender(function)
             while True:
-                for part in itertools.islice(coming, threads.most() - len(waiting)):
+                room = threads.most() - len(waiting)  # under 0 where workers have gone
+                for part in itertools.islice(coming, max(0, room)):
                     waiting.append((part, send(part)))
                 if not waiting:
                     return
@@ -301,6 +327,10 @@ def translated() -> Iterator[None]:
         raise BatchError(
             "the cluster is gone; the same command goes on when it is back."
         ) from error
+
+
+def _exists_there(file: str) -> bool:
+    return Path(file).exists()
 
 
 def _attempt_there(work: bytes, told: bytes) -> bytes:

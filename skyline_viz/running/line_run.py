@@ -24,6 +24,7 @@ from skyline_viz.running.line_table import (
     write_lines,
 )
 from skyline_viz.running.resume import digest_of, digest_of_method
+from skyline_viz.storage.addresses import UnseenError
 from skyline_viz.storage.stored_photo import StoredPhoto
 from skyline_viz.system.memory import photo_limit
 
@@ -37,6 +38,9 @@ class LineTask:
 
     known: str = ""
     """Digest of the content that is done."""
+
+    may_stay: bool = False
+    """Whether that may still be its content, for all that its storage tells."""
 
     @property
     def name(self) -> str:
@@ -57,6 +61,9 @@ class FoundLine:
     row: bytes | None
     """Its row of the table; None where the content is the one that was done."""
 
+    unseen: str = ""
+    """Why its content could not be seen, in a sentence; its row stays then."""
+
 
 Run = Callable[[Callable[[LineTask], FoundLine], Sequence[LineTask]], Iterator[FoundLine | Failure]]
 """How a function is run over tasks: `batch.run` with its workers, or a cluster's."""
@@ -74,6 +81,9 @@ class Summary:
 
     failures: list[Failure]
     """Photos that failed."""
+
+    unseen: list[Failure]
+    """Photos that were done, and could not be looked at again."""
 
 
 def digest_of_lines(method: Method) -> str:
@@ -105,6 +115,7 @@ def detect_into(
     photos = [*{one.name: one for one in photos}.values()]
     digest = digest_of_lines(method)
     failures: dict[str, Failure] = {}
+    unseen: list[Failure] = []
     with line_store(table, digest) as store:
         if table.exists() and read_about(table).get("digest") == digest:
             _take_over(store, table)
@@ -115,6 +126,10 @@ def detect_into(
                 failures[outcome.name] = outcome
                 continue
             photo = outcome.photo
+            if outcome.unseen:
+                unseen.append(Failure(photo.name, outcome.unseen))
+                known += 1
+                continue
             row = outcome.row
             if row is None:
                 known += 1
@@ -123,7 +138,7 @@ def detect_into(
         rows = _rows(store, photos, failures)
         write_lines(table, rows, {**about, "digest": digest})
     store_of(table).unlink(missing_ok=True)
-    return Summary(len(photos), known, [*failures.values()])
+    return Summary(len(photos), known, [*failures.values()], unseen)
 
 
 def find_line(method: Method, task: LineTask) -> FoundLine:
@@ -136,7 +151,13 @@ def find_line(method: Method, task: LineTask) -> FoundLine:
     from skyline_viz.running.warming import warm_up  # noqa: PLC0415 - loads what detects
 
     photo = task.photo
-    sha256, pixels = photo.read(task.known)
+    try:
+        sha256, pixels = photo.read(task.known)
+    except UnseenError as error:
+        if not task.may_stay:
+            raise
+        reason = f"{str(error).rstrip('.')}; its row of an earlier run stays."
+        return FoundLine(photo, task.known, None, reason)
     if pixels is None:
         return FoundLine(photo, sha256, None)
     warm_up()
@@ -158,7 +179,8 @@ def _to_do(store: LineStore, photos: Sequence[StoredPhoto]) -> Iterator[LineTask
         if known is None:
             yield LineTask(photo)
         elif not photo.stamp or photo.stamp != known.stamp:
-            yield LineTask(photo, known.sha256)
+            told = bool(photo.stamp and known.stamp)  # that it is another one
+            yield LineTask(photo, known.sha256, may_stay=not told)
 
 
 def _rows(

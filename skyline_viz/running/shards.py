@@ -16,7 +16,7 @@ from typing import Any
 from skyline_viz.running.line_table import SUFFIX, TableError, read_about, read_rows, write_lines
 
 _WORDS = re.compile(r"([1-9]\d*)/([1-9]\d*)")
-_FILE = re.compile(r"shard-(\d+)-of-(\d+)\.parquet")
+_FILE = re.compile(r"shard-(\d+)-of-(\d+)(\.\w+)")
 
 
 @dataclass(frozen=True)
@@ -55,14 +55,18 @@ class Shard:
     @property
     def file(self) -> str:
         """Name of its file."""
-        return f"shard-{self.number:05}-of-{self.of:05}{SUFFIX}"
+        return self.file_of(SUFFIX)
+
+    def file_of(self, suffix: str) -> str:
+        """Name of its file, where that is no table."""
+        return f"shard-{self.number:05}-of-{self.of:05}{suffix}"
 
     def holds(self, photo: str) -> bool:
         """Whether a photo belongs to it."""
         return zlib.crc32(photo.encode(errors="surrogateescape")) % self.of == self.number - 1
 
 
-def shards_in(folder: Path) -> list[tuple[Shard, Path]]:
+def shards_in(folder: Path, suffix: str = SUFFIX) -> list[tuple[Shard, Path]]:
     """The shards of a folder, by number, when all of them are there and made alike.
 
     Raises:
@@ -72,10 +76,10 @@ def shards_in(folder: Path) -> list[tuple[Shard, Path]]:
     found = [
         (Shard(int(name[1]), int(name[2])), path)
         for path in sorted(folder.iterdir())
-        if (name := _FILE.fullmatch(path.name))
+        if (name := _FILE.fullmatch(path.name)) and name[3] == suffix
     ]
     if not found:
-        raise TableError(f"{folder} holds no shards, shard-00001-of-0000N{SUFFIX} and so on.")
+        raise TableError(f"{folder} holds no shards, shard-00001-of-0000N{suffix} and so on.")
     numbers = {shard.of for shard, _ in found}
     if len(numbers) > 1:
         told = " and ".join(map(str, sorted(numbers)))

@@ -25,6 +25,10 @@ class StorageError(ValueError):
     """An address leads nowhere; the message is one sentence that names it and the reason."""
 
 
+class UnseenError(StorageError):
+    """Nothing can be said of what is there now: an outage, or no permission."""
+
+
 def is_address(text: str | os.PathLike[str]) -> bool:
     """Whether a text is an address, and not a path.
 
@@ -114,9 +118,9 @@ def naming(address: str) -> Iterator[None]:
     except FileNotFoundError as error:
         raise StorageError(f"{address} does not exist.") from error
     except PermissionError as error:
-        raise StorageError(f"{address} may not be read.") from error
+        raise UnseenError(f"{address} may not be read.") from error
     except Exception as error:  # each library has classes of its own
-        raise StorageError(f"{address} cannot be read: {plain(error)}.") from error
+        raise UnseenError(f"{address} cannot be read: {plain(error)}.") from error
 
 
 def plain(error: BaseException) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import random
 import time
 
-from skyline_viz.storage.addresses import StorageError, file_system, naming, plain
+from skyline_viz.storage.addresses import StorageError, UnseenError, file_system, naming, plain
 
 TRIES = 5
 """How often a photo is asked for."""
@@ -52,4 +52,4 @@ def fetch(address: str, size: int | None = None) -> bytes:
                 raise error
         except Exception as error:  # each library has classes of its own
             last = plain(error)
-    raise StorageError(f"{address} could not be downloaded in {TRIES} tries: {last}.")
+    raise UnseenError(f"{address} could not be downloaded in {TRIES} tries: {last}.")

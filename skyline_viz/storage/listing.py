@@ -5,6 +5,7 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from skyline_viz.picture_files.kinds import PHOTO_SUFFIXES
 from skyline_viz.storage.addresses import StorageError, address_of, file_system, naming
@@ -37,10 +38,36 @@ def photos_at(address: str) -> Iterator[Listed]:
         StorageError: It holds no photo, is missing, or cannot be listed.
     """
     found, path = file_system(address)
-    if _is_photo(address.partition("::")[0]):
+    if is_photo(address.partition("::")[0]):
         yield Listed(address)
         return
     some = False
+    for name, about in files_below(found, path, address):
+        if is_photo(name):
+            some = True
+            yield Listed(address_of(found, name, address), _size(about), _stamp(about))
+    if not some:
+        raise StorageError(f"{address} holds no photograph.")
+
+
+def files_at(address: str) -> Iterator[tuple[str, Listed]]:
+    """All files below an address but for hidden ones, each with its path from there.
+
+    Raises:
+        StorageError: It is missing, or cannot be listed.
+    """
+    found, path = file_system(address)
+    for name, about in files_below(found, path, address):
+        own = name.strip("/").removeprefix(path.strip("/")).strip("/")
+        yield own, Listed(address_of(found, name, address), _size(about), _stamp(about))
+
+
+def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapping[str, Any]]]:  # noqa: ANN401
+    """Names of all files below a path but for hidden ones, and what the storage says of each.
+
+    Raises:
+        StorageError: It is missing, or cannot be listed.
+    """
     folders = [path]
     while folders:
         place = folders.pop()
@@ -53,19 +80,17 @@ def photos_at(address: str) -> Iterator[Listed]:
                 continue
             if about["type"] == "directory":
                 deeper.append(name)
-            elif _is_photo(name):
-                some = True
-                yield Listed(address_of(found, name, address), _size(about), _stamp(about))
+            else:
+                yield name, about
         folders += reversed(deeper)
-    if not some:
-        raise StorageError(f"{address} holds no photograph.")
 
 
 def _is_hidden(name: str) -> bool:
     return posixpath.basename(name).startswith(".")
 
 
-def _is_photo(name: str) -> bool:
+def is_photo(name: str) -> bool:
+    """Whether an address, or a path in a storage, ends like a photo."""
     last = name.split("?", 1)[0].rsplit("/", 1)[-1]
     return posixpath.splitext(last)[1].lower() in PHOTO_SUFFIXES
 

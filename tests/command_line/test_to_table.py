@@ -1,5 +1,7 @@
 """``detect`` into a table: storages, shards, clusters, and what is refused."""
 
+from pathlib import Path
+
 import fsspec
 import pyarrow.parquet as pq
 import pytest
@@ -121,3 +123,11 @@ def test_a_table_and_a_folder_of_shards_are_told_apart(tmp_path):
         table_of(tmp_path / "folder.parquet", None)
     with pytest.raises(UsageError, match="is a file; shards go into a folder"):
         table_of(tmp_path / "file.parquet", shard)
+
+
+def test_a_table_at_an_address_is_refused_and_no_folder_is_made(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(UsageError, match="is an address; name a file of this machine"):
+        table_of(Path("s3://b/t.parquet"), None)
+    (tmp_path / "odd:").mkdir()
+    assert table_of(Path("odd:/t.parquet"), None) == Path("odd:/t.parquet")

@@ -12,7 +12,7 @@ from skyline_viz.running.shards import Shard
         (("gone", "--out", "t.parquet"), "gone is no folder of shards."),
         (
             ("parts", "--out", "t.csv"),
-            "name a file that ends in .parquet for the table, not t.csv.",
+            "name a file that ends in .parquet for a table, or in .npz for a detector, not t.csv.",
         ),
         (("parts", "--out", "t.parquet"), "parts holds no shards, shard-00001-of-0000N.parquet"),
     ],

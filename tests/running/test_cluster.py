@@ -79,6 +79,16 @@ def test_a_worker_that_is_lost_costs_its_photos_only(two, tmp_path):
     assert len(again) <= lost
 
 
+def test_fewer_threads_than_before_do_the_rest(two, tmp_path, monkeypatch):
+    """More tasks are under way then than the threads that are left would get."""
+    counts = iter([9, 9])
+    monkeypatch.setattr(module, "_COUNT_EVERY", 0.0)
+    monkeypatch.setattr(two.client, "nthreads", lambda: {"tcp://w:1": next(counts, 0)})
+    names = [f"p{number}" for number in range(200)]
+    found = list(two.run(partial(work, tmp_path), [*map(Photo, names)]))
+    assert found == [f"{name} done" for name in names]
+
+
 def test_a_photo_of_which_workers_die_fails_and_no_other_one(two, tmp_path):
     names = [*(f"p{number}" for number in range(12)), "deadly"]
     two.client.run_on_scheduler(_forgive, 0)

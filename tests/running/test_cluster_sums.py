@@ -14,7 +14,7 @@ from skyline_viz.datasets.item import LoadedItem
 from skyline_viz.evaluation.training_runs import train_on_several
 from skyline_viz.photo import PhotoError
 from skyline_viz.running import cluster_sums
-from skyline_viz.running.batch import BatchError, Failure
+from skyline_viz.running.batch import BatchError, Failure, working_on
 from skyline_viz.running.cluster import cluster_at
 from skyline_viz.running.cluster_sums import Sum, summed
 from skyline_viz.system.notes import heard_by, note
@@ -83,7 +83,8 @@ def test_a_cluster_trains_the_same_bank_to_the_bit(two):
         for name, places in {"one": range(6), "other": range(6, 9)}.items()
     }
     training = TrainingConfig(filter_size=3)
-    there, failed = train_on_several(sets, training, cluster=two)
+    with working_on(two):
+        there, failed = train_on_several(sets, training)
     here, _ = train_on_several(sets, training)
     assert failed == []
     np.testing.assert_array_equal(there.filters, here.filters)

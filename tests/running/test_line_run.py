@@ -1,5 +1,6 @@
 """Detecting into a table: each photo once, nothing done twice, whatever happens between."""
 
+from dataclasses import replace
 from functools import partial
 
 import pyarrow.parquet as pq
@@ -7,9 +8,10 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.running import line_run
-from skyline_viz.running.batch import run
+from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.line_run import detect_into
 from skyline_viz.running.line_store import store_of
+from skyline_viz.storage.addresses import StorageError, UnseenError
 from skyline_viz.storage.stored_photo import StoredPhoto
 from testing.programs.commands import scene, write_scene
 
@@ -114,3 +116,31 @@ def test_a_stamp_spares_the_download(photos, tmp_path, monkeypatch, detected):
     assert detect_into(table, moved, sv.Detector(), listed, {}).known == 4
     assert (len(asked), detected) == (4, [])  # downloaded, and found to be the same
     assert {row["stamp"] for row in rows(table).values()} == {"ETag 2"}
+
+
+def test_rows_outlive_an_outage_unless_the_photo_is_known_to_have_changed(
+    photos, tmp_path, monkeypatch
+):
+    table = tmp_path / "t.parquet"
+    stamped = [*photos[:2], replace(photos[2], stamp="ETag 1")]
+    detect_into(table, stamped, sv.Detector(), ONE_BY_ONE, {})
+    before = rows(table)
+
+    def out(photo, known=""):
+        if photo.name.endswith("p1.png"):
+            raise StorageError("it does not exist.")
+        raise UnseenError("it is busy.")
+
+    monkeypatch.setattr(StoredPhoto, "read", out)
+    again = [*stamped[:2], replace(photos[2], stamp="ETag 2"), photos[3]]
+    done = detect_into(table, again, sv.Detector(), ONE_BY_ONE, {})
+    stays = "it is busy; its row of an earlier run stays."
+    assert done.unseen == [Failure(photos[0].name, stays)]
+    assert [one.name for one in done.failures] == [one.name for one in again[1:]]
+    after = rows(table)
+    assert after["p0.png"] == before["p0.png"]
+    assert [after[f"p{at}.png"]["error"] for at in (1, 2, 3)] == [
+        "it does not exist.",
+        "it is busy.",
+        "it is busy.",
+    ]

@@ -1,0 +1,67 @@
+"""Commands on a cluster find what they find in processes; lost workers cost nothing else."""
+
+import json
+
+import pytest
+
+from skyline_viz.command_line.clusters import on_cluster
+from skyline_viz.running.batch import elsewhere
+from skyline_viz.running.cluster import Cluster, ClusterError
+
+
+def test_without_one_nothing_is_elsewhere():
+    with on_cluster(None, 3):
+        assert elsewhere() is None
+
+
+def test_evaluate_finds_the_same_with_folds_on_a_cluster(say, hills):
+    words = ("evaluate", hills, "--folds", "2", "--out")
+    assert say(*words, "here")[0] == 0
+    status, _, err = say(*words, "there", "--cluster", "local:2")
+    assert status == 0
+    assert err.startswith("skyline-viz: the cluster shows what it does at http://127.0.0.1:")
+    here, there = (_without_times(json.loads(_read(f"{one}/summary.json"))) for one in HERE)
+    assert here == there
+
+
+def test_diagnose_finds_the_same_on_a_cluster(say, hills):
+    words = ("diagnose", hills, "--no-remedies", "--out")
+    assert say(*words, "here")[0] == 0
+    assert say(*words, "there", "--cluster", "local:1")[0] == 0
+    assert _read("here/segments.csv") == _read("there/segments.csv")
+
+
+def test_a_gallery_is_the_same_on_a_cluster(say, hills, tmp_path):
+    for out, more in (("here", ()), ("there", ("--cluster", "local:1"))):
+        words = ("gallery", hills, "--out", out, "--html", f"{out}-pages", *more)
+        assert say(*words)[0] == 0
+    names = [sorted(path.name for path in tmp_path.glob(f"{one}-pages/pages/*")) for one in HERE]
+    assert names[0] == names[1] != []
+
+
+def test_a_folder_that_workers_do_not_see_is_refused(tmp_path):
+    class Blind:
+        def run(self, function, file):
+            return {"tcp://a:1": True, "tcp://b:2": False}
+
+    with pytest.raises(ClusterError, match=r"^the worker tcp://b:2 does not see the folder .*path"):
+        Cluster(Blind()).check_shared(tmp_path)
+    assert [*tmp_path.iterdir()] == []
+
+
+HERE = ("here", "there")
+
+
+def _read(file):
+    with open(file, encoding="utf-8") as opened:  # noqa: PTH123 - below the folder of the test
+        return opened.read()
+
+
+def _without_times(told):
+    if isinstance(told, dict):
+        return {
+            key: _without_times(value)
+            for key, value in told.items()
+            if not any(word in key for word in ("second", "time", "command", "argv", "when"))
+        }
+    return [*map(_without_times, told)] if isinstance(told, list) else told
