@@ -122,6 +122,13 @@ test("an anchor is hit within ten pixels by the mouse and 24 by a finger", () =>
   assert.deepEqual(done, [["anchor", 73, 100, 4]]);
 });
 
+test("a click on an anchor's mark goes there, and one beside it sets another anchor", () => {
+  drag([[53, 102]]);
+  drag([[57, 100]]);
+  drag([[62, 100]], finger(1));
+  assert.deepEqual(done, [["goTo", 50], ["anchor", 57, 100, 4], ["goTo", 50]]);
+});
+
 test("a right click removes an anchor, and moves the photo elsewhere", () => {
   drag([[52, 100]], { button: 2 });
   assert.deepEqual(labelling.applied, [{ kind: "remove", column: 50 }]);

@@ -15,7 +15,8 @@ import { DragTool, PanTool, makeTools } from "./tools.js";
 const STILL = 4; // screen pixels within which a press is a click
 const FAR = { finger: 48, mouse: 12 }; // screen pixels from which on a press draws a stroke
 const EDGE = { finger: 24, mouse: 8 }; // screen pixels beside the photo that still mean its edge
-const REACH = { finger: 24, mouse: 10 }; // screen pixels within which an anchor is hit
+const REACH = { finger: 24, mouse: 10 }; // screen pixels within which an anchor is dragged
+const MARK = 5; // of the anchor's mark: a click beside it sets another one
 
 /**
  * @typedef {object} Parts
@@ -160,7 +161,7 @@ export class Pointer {
     if (this.#beside(event)) previewer.clear();
     else if (selection.now.corners.length) line.showGuide(pixel);
     else if (this.#chosen !== "anchor") return;
-    else if (this.#anchorAt(event) === undefined) previewer.ask(...pixel, snapping(view.scale, { finger: false, shift: event.shiftKey }));
+    else if (this.#anchorAt(event, MARK) === undefined) previewer.ask(...pixel, snapping(view.scale, { finger: false, shift: event.shiftKey }));
     else previewer.clear();
   }
 
@@ -173,7 +174,9 @@ export class Pointer {
    */
   #toolFor(event, anchor) {
     if (event.button !== 0) return new PanTool(this.#bench);
-    if (this.#chosen === "anchor" && anchor !== undefined) return new DragTool(this.#bench, anchor);
+    if (this.#chosen === "anchor" && anchor !== undefined) {
+      return new DragTool(this.#bench, anchor, event.pointerType !== "touch" && this.#anchorAt(event, MARK) === undefined);
+    }
     if (this.#beside(event)) return event.altKey ? new PanTool(this.#bench) : null;
     return this.#tools[this.#chosen];
   }
@@ -228,11 +231,11 @@ export class Pointer {
    * Column of the anchor under a pointer; undefined where there is none.
    *
    * @param {PointerEvent} event
+   * @param {number} [reach] - Screen pixels within which it is hit.
    */
-  #anchorAt(event) {
+  #anchorAt(event, reach = event.pointerType === "touch" ? REACH.finger : REACH.mouse) {
     const { view, labelling } = this.#parts;
     const [x, y] = this.#at(event);
-    const reach = event.pointerType === "touch" ? REACH.finger : REACH.mouse;
     return nearest(labelling.document?.anchors ?? [], ([column, row]) => {
       const [ax, ay] = view.toScreen(column + 0.5, row);
       return Math.hypot(ax - x, ay - y);

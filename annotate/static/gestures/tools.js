@@ -148,14 +148,17 @@ export class ExplainTool {
 export class DragTool {
   #bench;
   #column;
+  #beside;
 
   /**
    * @param {Bench} bench
    * @param {number} column - Of the anchor.
+   * @param {boolean} beside - Whether the press is beside its mark: without a drag it is a click there.
    */
-  constructor(bench, column) {
+  constructor(bench, column, beside) {
     this.#bench = bench;
     this.#column = column;
+    this.#beside = beside;
   }
 
   /** @param {Contact} contact */
@@ -173,6 +176,7 @@ export class DragTool {
     const [column, row] = contact.pixel;
     const within = snapping(this.#bench.view.scale, contact);
     if (contact.moved) this.#bench.apply({ kind: "move", from_column: this.#column, column, row, within });
+    else if (this.#beside) this.#bench.anchor(column, row, within);
     else this.#bench.goTo(this.#column);
   }
 }
