@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,17 +15,16 @@ from skyline_viz.command_line.stored import photos_named
 from skyline_viz.running.batch import run
 from skyline_viz.running.line_table import SUFFIX
 from skyline_viz.running.shards import Shard
+from skyline_viz.storage.addresses import is_address
+from skyline_viz.storage.uploads import uploaded
 
 if TYPE_CHECKING:
     from skyline_viz.method import Method
 
 
-_ADDRESS = re.compile(r"[a-z][a-z0-9+.-]+:/", re.ASCII)  # of which a path keeps one stroke
-
-
-def is_table_name(out: Path) -> bool:
+def is_table_name(out: str) -> bool:
     """Whether an output is one table, and not a folder of files."""
-    return out.suffix.lower() == SUFFIX
+    return out.lower().endswith(SUFFIX)
 
 
 def shard_of(text: str | None) -> Shard | None:
@@ -40,15 +39,27 @@ def shard_of(text: str | None) -> Shard | None:
         raise UsageError(str(error)) from error
 
 
+@contextmanager
+def table_at(out: str, shard: Shard | None) -> Iterator[Path]:
+    """The file to write, see `table_of`; that of an address goes there after the block.
+
+    Raises:
+        UsageError: See `table_of`.
+        StorageError: The address cannot be written.
+    """
+    if not is_address(out):
+        yield table_of(Path(out), shard)
+        return
+    with uploaded(f"{out}/{shard.file}" if shard else out) as table:
+        yield table
+
+
 def table_of(out: Path, shard: Shard | None) -> Path:
     """The file to write: the output itself, or that of a shard in it.
 
     Raises:
-        UsageError: It is an address, or there is a folder where a file is to be, or the other way
-            round.
+        UsageError: There is a folder where a file is to be, or the other way round.
     """
-    if _ADDRESS.match(out.as_posix()) and not Path(out.parts[0]).exists():
-        raise UsageError(f"{out} is an address; name a file of this machine, and copy it there.")
     if shard is None:
         if out.is_dir():
             raise UsageError(f"{out} is a folder of shards; name a file, or a --shard.")
@@ -60,7 +71,7 @@ def table_of(out: Path, shard: Shard | None) -> Path:
 
 def detect_to_table(
     words: Sequence[str],
-    table: Path,
+    out: str,
     method: Method,
     about: Mapping[str, object],
     *,
@@ -72,7 +83,7 @@ def detect_to_table(
 
     Args:
         words: Paths and addresses.
-        table: File to write.
+        out: File or address to write.
         method: What detects.
         about: What to say of the run in the table.
         workers: Number of processes, where there is no cluster.
@@ -87,10 +98,11 @@ def detect_to_table(
         files = [one for one in files if shard.holds(str(one.photo_path))]
         about = {**about, "shard": str(shard)}
     processes = foresee(files, workers) if files and cluster is None else workers
-    with on_cluster(cluster, workers):
+    with on_cluster(cluster, workers), table_at(out, shard) as table:
         done = detect_into(table, photos, method, partial(run, workers=processes), about)
     if done.known:
         were = "was" if done.known == 1 else "were"
         tell(f"{done.known} of {counted(done.photos, 'photo')} {were} done already.")
-    tell(f"{counted(done.photos - len(done.failures), 'skyline')} in {table}")
+    where = out if is_address(out) else table
+    tell(f"{counted(done.photos - len(done.failures), 'skyline')} in {where}")
     return status_after([*done.failures, *done.unseen])

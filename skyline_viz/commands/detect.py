@@ -19,10 +19,10 @@ from skyline_viz.command_line.messages import (
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.run_record import RECORD, Beginning
-from skyline_viz.command_line.settings import ClusterAddress, Folder, Switch
+from skyline_viz.command_line.settings import ClusterAddress, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.stored import StoredItem, collect_stored, stored_photo
-from skyline_viz.command_line.to_table import detect_to_table, is_table_name, shard_of, table_of
+from skyline_viz.command_line.to_table import detect_to_table, is_table_name, shard_of
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.photo_table import (
     TABLE,
@@ -33,6 +33,7 @@ from skyline_viz.running.photo_table import (
     sure,
     write_table,
 )
+from skyline_viz.storage.addresses import is_address
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 from skyline_viz.system.names import columns_of, listed, padded, shortened
 from skyline_viz.system.notes import note
@@ -66,10 +67,10 @@ class Detect:
     """Photos, folders of photos, or data sets; paths, or addresses such as s3://BUCKET/FOLDER,
     gs://..., https://HOST/PHOTO.jpg, zip://FOLDER::FILE.zip."""
 
-    out: Folder = Path("skylines")
+    out: Annotated[str, tyro.conf.arg(metavar="DIR")] = "skylines"
     """Folder for NAME.csv: column, row of its first terrain pixel, whether visible (1 or 0), and
     margin, small where the line is unsure; skylines.csv, how sure each photo is; run.json. Or
-    FILE.parquet, for all of that as one table."""
+    FILE.parquet, a path or an address, for all of that as one table."""
 
     methods: MethodOptions = field(default_factory=Methods)
     """What detects, one method; our detector with its default settings unless given."""
@@ -119,13 +120,16 @@ class Detect:
         for option, value in (("--cluster", self.cluster), ("--shard", self.shard)):
             if value is not None:
                 raise UsageError(f"{option} writes one table: name it with --out FILE.parquet.")
+        if is_address(self.out):
+            raise UsageError("files go into a folder; an address takes a table, FILE.parquet.")
+        out = Path(self.out)
         inputs = collect_stored(self.photos, taken=(Path(TABLE).stem, Path(RECORD).stem))
-        output_folder(self.out, (one.item for one in inputs))
+        output_folder(out, (one.item for one in inputs))
         wide = max(columns_of(shortened(one.name)) for one in inputs)
         failures: list[Failure] = []
         rows: list[PhotoRow] = []
         workers = foresee((one.item for one in inputs), self.workers)
-        kept = Kept.within(self.out, "detect")
+        kept = Kept.within(out, "detect")
         outcomes = kept.run(
             partial(_detect, self, detector),
             inputs,
@@ -142,12 +146,12 @@ class Detect:
             tell_done(outcome.line(wide))
             if outcome.doubt:
                 tell(f"{shortened(photo.name)}: {outcome.doubt}")
-        write_table(self.out / TABLE, rows)
-        began.write(self.out / RECORD, detector, self.methods.bank, self._options(), rows)
+        write_table(out / TABLE, rows)
+        began.write(out / RECORD, detector, self.methods.bank, self._options(), rows)
         kept.remove()
         if said := kept.said():
             tell(said)
-        _sum_up(self.out, rows, wide)
+        _sum_up(out, rows, wide)
         return status_after(failures)
 
     def _to_table(self, began: Beginning, detector: Method) -> int:
@@ -158,7 +162,7 @@ class Detect:
         about = began.told(detector, self.methods.bank, self._options())
         return detect_to_table(
             self.photos,
-            table_of(self.out, shard),
+            self.out,
             detector,
             {"run": about},
             workers=self.workers,
@@ -172,7 +176,7 @@ class Detect:
             *("mask", "overlay", "overlay_width", "json"),
             *("workers", "cluster", "shard", "max_megapixels"),
         )
-        return {"out": str(self.out), **{name: getattr(self, name) for name in names}}
+        return {"out": self.out, **{name: getattr(self, name) for name in names}}
 
 
 @dataclass(frozen=True)
@@ -200,7 +204,7 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
     found = detector.detect(pixels)
     line, margins = found.skyline, found.margins()
     height = pixels.shape[0]
-    path = options.out / photo.name  # with_suffix would cut names that hold a dot
+    path = Path(options.out, photo.name)  # with_suffix would cut names that hold a dot
     files = [path.with_name(f"{photo.name}.csv")]
     line.write_csv(files[0], margins)
     if options.json:

@@ -44,7 +44,7 @@ def copied(address: str) -> Path:
     inner, _, around = address.partition("::")
     name = PurePosixPath(inner.partition("?")[0]).name
     name = name if inner.partition("//")[2] else PurePosixPath(around).stem
-    home = _caches() / hashlib.sha256(address.encode()).hexdigest()[:16]
+    home = caches() / hashlib.sha256(address.encode()).hexdigest()[:16]
     target = home / (name or "photos")
     if is_photo(inner):
         _write(target, Listed(address))
@@ -70,7 +70,7 @@ def _bring_up_to_date(target: Path, files: dict[str, Listed], address: str) -> N
     size, free = sum(one.size or 0 for _, one in news), shutil.disk_usage(target).free
     if size > _MOST_OF_DISK * free:
         raise StorageError(
-            f"{address} needs {size / 1e9:.1f} GB in {_caches()}, where {free / 1e9:.1f} GB are "
+            f"{address} needs {size / 1e9:.1f} GB in {caches()}, where {free / 1e9:.1f} GB are "
             f"free; {CACHE} names another folder."
         )
     _write_state(target, {own: one for own, one in known.items() if own in files})
@@ -95,7 +95,8 @@ def _leads_out(own: str) -> bool:
     return not parts or ".." in parts or "\\" in own or ":" in own or "\0" in own
 
 
-def _caches() -> Path:
+def caches() -> Path:
+    """The folder of caches."""
     if named := os.environ.get(CACHE):
         return Path(named)
     usual = "LOCALAPPDATA" if sys.platform == "win32" else "XDG_CACHE_HOME"

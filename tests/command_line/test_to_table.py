@@ -1,7 +1,5 @@
 """``detect`` into a table: storages, shards, clusters, and what is refused."""
 
-from pathlib import Path
-
 import fsspec
 import pyarrow.parquet as pq
 import pytest
@@ -114,8 +112,8 @@ def test_what_makes_no_sense_is_refused(say, hills, words, said):
 def test_a_table_and_a_folder_of_shards_are_told_apart(tmp_path):
     (tmp_path / "folder.parquet").mkdir()
     (tmp_path / "file.parquet").touch()
-    assert is_table_name(tmp_path / "a.Parquet")
-    assert not is_table_name(tmp_path / "parquet")
+    assert is_table_name("s3://b/a.Parquet")
+    assert not is_table_name("b/parquet")
     assert shard_of(None) is None
     shard = shard_of("1/2")
     assert table_of(tmp_path / "new.parquet", shard) == tmp_path / "new.parquet" / Shard(1, 2).file
@@ -125,9 +123,14 @@ def test_a_table_and_a_folder_of_shards_are_told_apart(tmp_path):
         table_of(tmp_path / "file.parquet", shard)
 
 
-def test_a_table_at_an_address_is_refused_and_no_folder_is_made(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(UsageError, match="is an address; name a file of this machine"):
-        table_of(Path("s3://b/t.parquet"), None)
-    (tmp_path / "odd:").mkdir()
-    assert table_of(Path("odd:/t.parquet"), None) == Path("odd:/t.parquet")
+def test_a_table_goes_to_an_address_and_the_next_run_goes_on(say, bucket, tmp_path, monkeypatch):
+    monkeypatch.setenv("SKYLINE_VIZ_CACHE", str(tmp_path / "cache"))
+    words = ("detect", "s3://photos/in", "--out", "s3://photos/out/t.parquet", "--workers", "1")
+    assert say(*words) == (0, "5 skylines in s3://photos/out/t.parquet\n", "")
+    (tmp_path / "t.parquet").write_bytes(fsspec.filesystem("s3").cat("photos/out/t.parquet"))
+    assert len(rows(tmp_path / "t.parquet")) == 5
+    status, out, _ = say(*words)
+    assert (status, out.splitlines()[0]) == (0, "5 of 5 photos were done already.")
+    assert [one for one in (tmp_path / "cache").rglob("*") if one.is_file()] == []
+    said = say("detect", "s3://photos/in", "--out", "s3://photos/out")[2]
+    assert said == "skyline-viz: files go into a folder; an address takes a table, FILE.parquet.\n"
