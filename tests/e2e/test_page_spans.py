@@ -5,6 +5,7 @@ import zipfile
 
 import pytest
 
+from testing import until
 from testing.labelling import done, served, write_hills
 from testing.labels import label
 from testing.programs.browser import Page
@@ -175,7 +176,7 @@ def test_in_the_sheet_digits_tick_tags(page):
 
 def rest(page, element):
     """Let a finger rest on something."""
-    box = element.bounding_box()
+    box = until(element.bounding_box)  # none while the list is laid out anew
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     session = page.context.new_cdp_session(page.page)
     touch = {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]}

@@ -62,7 +62,7 @@ def test_each_fold_is_tested_with_the_sum_of_the_others(items, monkeypatch):
     )
     config = DetectorConfig(delta=2)
     assigned = assign(list(items)[::-1], [Detector(config=config)], 2, seed=7)
-    assert gathered == list(items)
+    assert sorted(item.name for item in gathered) == [item.name for item in items]  # each once
     (tasks,) = assigned.tasks.values()
     assert [task.name for task in tasks] == [item.name for item in items]
     banks = {task.name: task.method.bank for task in tasks}
