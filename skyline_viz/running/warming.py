@@ -48,7 +48,9 @@ def warm_up() -> None:
         contextlib.ExitStack() as until_done,
         event.install_listener("numba:compile", _Compiling(until_done)),
     ):
-        Detector().detect(photo)
+        found = Detector().detect(photo)
+        found.margins()
+        _ = found.confidence  # what searches other lines
 
 
 class _Compiling(event.Listener):  # type: ignore[misc]  # numba has no types
