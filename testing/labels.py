@@ -11,6 +11,7 @@ from annotate.cli import main
 from annotate.store.database import NAME
 from annotate.store.labels import Label
 from annotate.store.operations import SetStatus, Straight
+from annotate.store.store import Store
 from skyline_viz.skyline import Skyline
 from testing.labelling import workbench
 
@@ -67,6 +68,20 @@ def label_named(folder, names, row, annotator="ann"):
             session.apply(Straight(column=0, row=row, to_column=69, to_row=row), -1)
             session.apply(SetStatus(status="accepted"), -1)
     bench.close()
+
+
+def two_passes(folder):
+    """Let two people agree on one photo of a folder, and not on another."""
+    label_named(folder, ["hill-0.png", "hill-1.png"], 10, "ann")
+    label_named(folder, ["hill-0.png"], 11, "bob")
+    label_named(folder, ["hill-1.png"], 30, "bob")
+    return folder
+
+
+def labels_by_name(folder, annotator="consensus"):
+    """Labels of a pass by the photo's name."""
+    with closing(Store(folder, reading=True)) as store:
+        return {one.name: one for one in store.labels(annotator, 1)}
 
 
 def statuses(folder, annotator="ann"):

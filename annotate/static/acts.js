@@ -14,6 +14,7 @@ import { stagesAddress } from "./server/api.js";
 /** @import { HiddenList } from "./around/hidden_list.js" */
 /** @import { Overlay } from "./around/overlay.js" */
 /** @import { Sheet } from "./around/sheet.js" */
+/** @import { tagging } from "./around/tagging.js" */
 /** @import { Toolbar } from "./around/toolbar.js" */
 /** @import { Status } from "./types.js" */
 
@@ -31,6 +32,7 @@ import { stagesAddress } from "./server/api.js";
  * @property {ExplainedPanel} explained
  * @property {Brush} brush
  * @property {HiddenList} hiddenList
+ * @property {ReturnType<typeof tagging>} tags
  * @property {() => void} help - Shows all keys.
  * @property {() => void} guideline - Shows what the skyline is.
  */
@@ -42,7 +44,7 @@ import { stagesAddress } from "./server/api.js";
  *
  * @param {Parts} parts
  */
-export function makeActs({ labelling, line, pointer, actions, toolbar, overlay, sheet, selection, stage, explained, brush, hiddenList, help, guideline }) {
+export function makeActs({ labelling, line, pointer, actions, toolbar, overlay, sheet, selection, stage, explained, brush, hiddenList, tags, help, guideline }) {
   return {
     ...line,
     help,
@@ -63,7 +65,7 @@ export function makeActs({ labelling, line, pointer, actions, toolbar, overlay, 
     setStatus: (status) => actions.setStatus(status),
     undo: () => actions.undo(),
     redo: () => actions.redo(),
-    tags: () => actions.tags(),
+    tags: () => tags.show(),
     comment: () => actions.comment(),
     hiddenList: () => hiddenList.show(),
     /** @param {string} key */

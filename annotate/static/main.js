@@ -20,6 +20,7 @@ import { Messages } from "./around/messages.js";
 import { Overlay } from "./around/overlay.js";
 import { PhotoList } from "./around/photo_list.js";
 import { Sheet } from "./around/sheet.js";
+import { tagging } from "./around/tagging.js";
 import { Toolbar } from "./around/toolbar.js";
 import { Tour } from "./around/tour.js";
 import { around, box, busy, button, canvas } from "./basics/dom.js";
@@ -72,12 +73,13 @@ new PhotoList(labelling, chosen, (id, clicked) => {
 });
 const toolbar = new Toolbar(box("tools"));
 const pointer = new Pointer({ canvas: lines, view, selection, labelling, previewer, brush, line: { ...line, anchor: line.setAnchor, goTo: line.select, explain: (pixel) => explained.show(pixel) } });
-const act = makeActs({ labelling, selection, stage, line, pointer, actions, toolbar, overlay, sheet, explained, brush, hiddenList, help: () => showHelp(table, GESTURES), guideline: showGuideline });
+const tags = tagging(labelling, () => actions.target());
+const act = makeActs({ labelling, selection, stage, line, pointer, actions, toolbar, overlay, sheet, explained, brush, hiddenList, tags, help: () => showHelp(table, GESTURES), guideline: showGuideline });
 const table = keyTable(act);
 const tour = new Tour(focus);
 
 sheet.on("finish", (status) => actions.finish(status));
-sheet.on("tick", (number) => actions.tick(number));
+sheet.on("tick", (number) => tags.tick(number));
 chosen.on("finish", ({ photos, status }) => actions.finishAll(photos, status));
 toolbar.on("tool", ({ id, name, title }) => {
   pointer.use(id);

@@ -229,22 +229,6 @@ test("Undo drops what is being made first, where it is seen", () => {
   assert.deepEqual([draft, actions.undoes], ["", "the anchor at column 1, row 9"]);
 });
 
-test("in the sheet a digit puts a tag on the photo of the card, and takes it off", async () => {
-  labelling.legend.tags = ["no visible skyline", "fog"];
-  sheet.shown = true;
-  sheet.card = labelling.photos[1];
-  actions.tick(2);
-  await quiet();
-  assert.deepEqual([server.documents.get(2).tags, said.at(-1).text], [["fog"], "hill-2.png has the tag “fog”."]);
-  sheet.card = labelling.photos[1];
-  actions.tick(2);
-  await quiet();
-  assert.deepEqual([server.documents.get(2).tags, said.at(-1).text], [[], "hill-2.png has the tag “fog” no more."]);
-  actions.tick(3);
-  await quiet();
-  assert.deepEqual(server.documents.get(2).tags, []);
-});
-
 test("accepting a photo without a visible skyline says that its line does not count", async () => {
   server.documents.get(1).nothing_visible = true;
   labelling.document.nothing_visible = true;

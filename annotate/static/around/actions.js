@@ -1,9 +1,9 @@
-/** What is done to a photo as a whole: its status, its tags, undo. */
+/** What is done to a photo as a whole: its status, what is said of it, undo. */
 
 import { Events } from "../basics/events.js";
 import { isChange } from "../basics/operations.js";
 import { counted, remark } from "../basics/words.js";
-import { offeredTags, showComment, showTags } from "./dialogs.js";
+import { showComment } from "./dialogs.js";
 
 /** @import { Labelling } from "../labelled/labelling.js" */
 /** @import { Item } from "../server/queue.js" */
@@ -289,32 +289,6 @@ export class Actions extends Events {
       this.#labelling.say("");
       this.#labelling.send(photo, { what: "redo", says: "redoing" });
     } else this.#labelling.say("There is nothing to redo.");
-  }
-
-  /** Tags of the photo. */
-  tags() {
-    const labelling = this.#labelling;
-    const photo = this.target();
-    if (photo) {
-      const { id, name } = photo; // each tick is of the photo as it is by then
-      showTags(labelling, photo, (tag, on) =>
-        labelling.send({ id, name }, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` }));
-    }
-  }
-
-  /**
-   * Put a tag on the photo, or take it off.
-   *
-   * @param {number} number - Its place among those that are offered, from 1.
-   */
-  tick(number) {
-    const labelling = this.#labelling;
-    const photo = this.target();
-    const tag = photo && offeredTags(labelling, photo)[number - 1];
-    if (!photo || !tag) return;
-    const on = !photo.tags.includes(tag);
-    labelling.send({ id: photo.id, name: photo.name }, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` });
-    labelling.say(`${photo.name} has the tag “${tag}”${on ? "" : " no more"}.`);
   }
 
   /**

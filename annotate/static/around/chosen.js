@@ -117,9 +117,7 @@ export class Chosen extends Events {
     if (!photos.length) return;
     const tags = photos[0].tags.filter((tag) => photos.every((photo) => photo.tags.includes(tag)));
     showTags(this.#labelling, { name: counted(photos.length, "photo"), tags }, (tag, on) => {
-      for (const photo of photos) {
-        this.#labelling.send(photo, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` });
-      }
+      for (const photo of photos) this.#labelling.tag(photo, tag, on);
     });
   }
 

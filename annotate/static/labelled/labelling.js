@@ -158,6 +158,17 @@ export class Labelling extends Events {
   }
 
   /**
+   * Put a tag on a photo, or take it off, whatever its revision is by then: a tag fits any.
+   *
+   * @param {{id: number, name: string}} photo
+   * @param {string} tag
+   * @param {boolean} on
+   */
+  tag({ id, name }, tag, on) {
+    return this.send({ id, name }, { what: "operations", operation: { kind: "tag", tag, on }, says: `the tag “${tag}”` });
+  }
+
+  /**
    * Tell the person something, on the page and to screen readers.
    *
    * @param {string} text
@@ -181,7 +192,7 @@ export class Labelling extends Events {
     return tags.map((tag) => ({
       words: tag,
       run: () => {
-        this.send({ id, name }, { what: "operations", operation: { kind: "tag", tag, on: true }, says: `the tag “${tag}”` });
+        this.tag({ id, name }, tag, true);
         this.say(`${name} has the tag “${tag}”.`);
       },
     }));

@@ -2,26 +2,13 @@
 
 import pytest
 
-from annotate.store.store import Store
 from testing.labelling import write_hills
-from testing.labels import label, label_named, run
+from testing.labels import label, labels_by_name, run, two_passes
 
 
 @pytest.fixture
 def folder(tmp_path):
-    """Two people agree on one photo, and not on another."""
-    folder = write_hills(tmp_path / "alps")
-    label_named(folder, ["hill-0.png", "hill-1.png"], 10, "ann")
-    label_named(folder, ["hill-0.png"], 11, "bob")
-    label_named(folder, ["hill-1.png"], 30, "bob")
-    return folder
-
-
-def labels(folder):
-    store = Store(folder, reading=True)
-    found = {one.name: one for one in store.labels("consensus", 1)}
-    store.close()
-    return found
+    return two_passes(write_hills(tmp_path / "alps"))
 
 
 def test_photos_are_accepted_where_all_agree_and_else_wait(folder, capsys):
@@ -30,7 +17,7 @@ def test_photos_are_accepted_where_all_agree_and_else_wait(folder, capsys):
     assert "Accepted, since all agree within 2 px: 1" in out
     assert "hill-1.png: ann and bob differ by up to 20 px in columns 0 to 69" in out
     assert "Not in it, since fewer than two passes have decided them: 1" in out
-    found = labels(folder)
+    found = labels_by_name(folder)
     assert {name: one.status for name, one in found.items()} == {
         "hill-0.png": "accepted",
         "hill-1.png": "needs review",
@@ -49,10 +36,10 @@ def test_within_says_what_agrees(folder, capsys):
 
 def test_again_nothing_is_written_that_is_there(folder, capsys):
     run("consensus", folder)
-    before = {name: one.operations for name, one in labels(folder).items()}
+    before = {name: one.operations for name, one in labels_by_name(folder).items()}
     assert run("consensus", folder) == 0
     assert "somebody has decided or worked on them: 1" in capsys.readouterr().out
-    assert {name: one.operations for name, one in labels(folder).items()} == before
+    assert {name: one.operations for name, one in labels_by_name(folder).items()} == before
 
 
 def test_an_export_takes_the_consensus_where_there_is_one(folder, tmp_path, capsys):
@@ -74,7 +61,7 @@ def test_a_consensus_leaves_as_json_and_comes_back(folder, tmp_path):
     words = ["--format", "json", "--status", "all", "--annotator", "consensus", "--out", out]
     assert run("export", folder, *words) == 0
     assert run("import", again, out) == 0
-    before, after = labels(folder), labels(again)
+    before, after = labels_by_name(folder), labels_by_name(again)
     for name, one in before.items():
         assert after[name].skyline == one.skyline
         assert after[name].comment == one.comment

@@ -5,24 +5,12 @@ import pytest
 from annotate.store.operations import Draw, SetAnchor, SetStatus
 from annotate.store.store import Store
 from testing.labelling import workbench, write_hills
-from testing.labels import label, label_named, run, statuses
+from testing.labels import label, label_named, labels_by_name, run, statuses, two_passes
 
 
 @pytest.fixture
 def folder(tmp_path):
-    """Two people agree on one photo, and not on another."""
-    folder = write_hills(tmp_path / "alps")
-    label_named(folder, ["hill-0.png", "hill-1.png"], 10, "ann")
-    label_named(folder, ["hill-0.png"], 11, "bob")
-    label_named(folder, ["hill-1.png"], 30, "bob")
-    return folder
-
-
-def labels(folder):
-    store = Store(folder, reading=True)
-    found = {one.name: one for one in store.labels("consensus", 1)}
-    store.close()
-    return found
+    return two_passes(write_hills(tmp_path / "alps"))
 
 
 def test_what_people_have_decided_or_begun_stays(folder, capsys):
@@ -38,8 +26,8 @@ def test_what_people_have_decided_or_begun_stays(folder, capsys):
     said = capsys.readouterr()
     assert "somebody has decided or worked on them: 2" in said.out
     assert "labelled anew since the consensus was decided: hill-0.png, hill-1.png." in said.err
-    assert set(labels(folder)["hill-0.png"].skyline.rows) == {11}
-    kept = labels(folder)["hill-1.png"]
+    assert set(labels_by_name(folder)["hill-0.png"].skyline.rows) == {11}
+    kept = labels_by_name(folder)["hill-1.png"]
     assert kept.status == "needs review"
     assert kept.skyline.rows.tolist() == rows.tolist()
 
@@ -48,7 +36,7 @@ def test_what_nobody_has_touched_follows_the_passes(folder):
     run("consensus", folder)
     label_named(folder, ["hill-1.png"], 12, "bob")
     assert run("consensus", folder) == 0
-    found = labels(folder)["hill-1.png"]
+    found = labels_by_name(folder)["hill-1.png"]
     assert (found.status, found.comment, set(found.skyline.rows)) == ("accepted", None, {11})
 
 
@@ -59,7 +47,7 @@ def test_a_comment_of_a_person_is_work_too(folder):
     bench.close()
     label_named(folder, ["hill-1.png"], 10, "bob")
     run("consensus", folder)
-    assert str(labels(folder)["hill-1.png"].comment) == "eve: ask the guide"
+    assert str(labels_by_name(folder)["hill-1.png"].comment) == "eve: ask the guide"
 
 
 def test_what_was_undone_is_no_work(folder):
@@ -107,7 +95,7 @@ def test_columns_keep_where_they_are_from_also_after_somebody_has_decided(tmp_pa
     bench.session(1).apply(SetAnchor(column=25, row=int(proposed[25])), -1)
     bench.session(1).apply(SetStatus(status="accepted"), -1)
     bench.close()
-    found = labels(folder)["hill-0.png"]
+    found = labels_by_name(folder)["hill-0.png"]
     assert set(found.origin[:10]) == set(found.origin[60:]) == {0}  # `proposal`
 
 
@@ -124,5 +112,5 @@ def test_whoever_works_on_a_photo_meanwhile_keeps_it(folder, monkeypatch):
 
     monkeypatch.setattr(Store, "append_all", late)
     assert run("consensus", folder) == 0
-    kept = labels(folder)["hill-1.png"]
+    kept = labels_by_name(folder)["hill-1.png"]
     assert (kept.status, kept.operations[-1]["kind"]) == ("needs review", "anchor")
