@@ -20,6 +20,29 @@ def chromium(flags=()):
         browser.close()
 
 
+@contextmanager
+def windows_on(browser, file, allowed):
+    """Opens a file in windows, which log no error and ask for nothing but what is allowed."""
+    errors, asked, contexts = [], [], []
+
+    def opened(**how):
+        context = browser.new_context(viewport={"width": 1280, "height": 800}, **how)
+        contexts.append(context)
+        context.on("request", lambda request: asked.append(request.url))
+        page = context.new_page()
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.on("console", lambda one: errors.append(one.text) if one.type == "error" else None)
+        page.goto(file.as_uri())
+        return page
+
+    yield opened
+    for context in contexts:
+        context.close()
+    assert errors == []
+    assert file.as_uri() in asked
+    assert [url for url in asked if not (url.startswith("data:") or allowed(url))] == []
+
+
 def hold(page, address):
     """
     Keep the next request to an address on its way; the list gets its route, to be answered later.

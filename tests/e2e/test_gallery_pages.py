@@ -6,6 +6,7 @@ from axe_playwright_python.sync_playwright import Axe
 from skyline_viz.cli import main
 from skyline_viz.skyline import Skyline
 from testing.detections import write_slanting
+from testing.programs.browser import windows_on
 
 
 @pytest.fixture(scope="module")
@@ -24,25 +25,10 @@ def index(tmp_path_factory):
 
 @pytest.fixture
 def window(browser, index):
-    """Opens the cards; they may log no error and ask for nothing outside their folder."""
-    errors, asked, contexts = [], [], []
-
-    def opened(**how):
-        context = browser.new_context(viewport={"width": 1280, "height": 800}, **how)
-        contexts.append(context)
-        context.on("request", lambda request: asked.append(request.url))
-        page = context.new_page()
-        page.on("pageerror", lambda error: errors.append(str(error)))
-        page.on("console", lambda one: errors.append(one.text) if one.type == "error" else None)
-        page.goto(index.as_uri())
-        return page
-
-    yield opened
-    for context in contexts:
-        context.close()
-    assert errors == []
-    home = (index.parent.as_uri() + "/", "data:")
-    assert [url for url in asked if not url.startswith(home)] == []
+    """Opens the cards; they may ask for nothing outside their folder."""
+    home = index.parent.as_uri() + "/"
+    with windows_on(browser, index, lambda url: url.startswith(home)) as opened:
+        yield opened
 
 
 def cards(page):

@@ -6,6 +6,7 @@ from axe_playwright_python.sync_playwright import Axe
 from skyline_viz.cli import main
 from skyline_viz.skyline import Skyline
 from testing.detections import write_slanting
+from testing.programs.browser import windows_on
 
 NAMES = ["p0", "p1", "p2", "p3"]
 
@@ -27,25 +28,9 @@ def report(tmp_path_factory):
 
 @pytest.fixture
 def window(browser, report):
-    """Opens the report; it may log no error and ask for nothing but itself."""
-    errors, asked = [], []
-    contexts = []
-
-    def opened(**how):
-        context = browser.new_context(viewport={"width": 1280, "height": 800}, **how)
-        contexts.append(context)
-        context.on("request", lambda request: asked.append(request.url))
-        page = context.new_page()
-        page.on("pageerror", lambda error: errors.append(str(error)))
-        page.on("console", lambda one: errors.append(one.text) if one.type == "error" else None)
-        page.goto(report.as_uri())
-        return page
-
-    yield opened
-    for context in contexts:
-        context.close()
-    assert errors == []
-    assert {url for url in asked if not url.startswith("data:")} == {report.as_uri()}
+    """Opens the report; it may ask for nothing but itself."""
+    with windows_on(browser, report, lambda url: url == report.as_uri()) as opened:
+        yield opened
 
 
 def cards(page):
