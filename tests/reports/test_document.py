@@ -63,6 +63,11 @@ def test_the_worst_photo_comes_first_and_what_has_no_truth_last(three):
     assert __version__ in page(three)
 
 
+def test_the_legend_names_no_line_that_is_nowhere(three, blind):
+    assert "with the best remedy" in page(three)
+    assert "with the best remedy" not in page(Report("set", [blind], "default"))
+
+
 def test_nothing_is_asked_for_from_anywhere(three):
     read = Read(page(three))
     assert {one for one in read.addresses if not one.startswith(("data:", "#"))} == set()
