@@ -15,7 +15,7 @@ import cv2
 from benchmarks.table import markdown
 from benchmarks.turns import fastest
 from skyline_viz import Detector, open_dataset, read_photo, write_photo
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.running.warming import warm_up
 from skyline_viz.system.memory import keep_freed
 

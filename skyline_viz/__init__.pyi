@@ -6,11 +6,11 @@ from .constraints import Anchor as Anchor
 from .constraints import Constraints as Constraints
 from .constraints import PathError as PathError
 from .constraints import StraightSpan as StraightSpan
+from .datasets.dataset import Dataset as Dataset
+from .datasets.dataset import DatasetError as DatasetError
+from .datasets.dataset import DatasetItem as DatasetItem
 from .datasets.item import Item as Item
 from .datasets.item import LoadedItem as LoadedItem
-from .datasets.layouts import Dataset as Dataset
-from .datasets.layouts import DatasetError as DatasetError
-from .datasets.layouts import DatasetItem as DatasetItem
 from .datasets.layouts import open_dataset as open_dataset
 from .datasets.predictions import Predictions as Predictions
 from .datasets.predictions import open_predictions as open_predictions

@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath
 
 from annotate.formats.common import safe_stems
 from skyline_viz.command_line.inputs import output_names
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.datasets.matching import bare_stem
 
 

@@ -8,11 +8,14 @@ from pathlib import Path
 from skyline_viz.command_line.messages import UsageError, say, say_last
 from skyline_viz.command_line.sources import Missing, named
 from skyline_viz.command_line.truth_options import Truths
-from skyline_viz.datasets.layouts import Dataset, DatasetError, DatasetItem, truth_names
+from skyline_viz.datasets.dataset import Dataset, DatasetError, DatasetItem
+from skyline_viz.datasets.label_table import is_label_table
+from skyline_viz.datasets.layouts import truth_names
 from skyline_viz.datasets.matching import IMAGE_FOLDERS, TRUTH_FOLDERS
 from skyline_viz.datasets.named_item import NamedItem
-from skyline_viz.photo import PhotoError, photo_size
+from skyline_viz.photo import PhotoError
 from skyline_viz.running.batch import Failure
+from skyline_viz.storage.addresses import is_address
 from skyline_viz.system.names import listed, shortened
 
 _LONGEST = 255 - len("-overlay.jpg")
@@ -48,7 +51,9 @@ def collect(
         for item in _opened(one, truths or Truths()):
             if isinstance(item, Missing):
                 missing.append(item)
-            found.setdefault(os.path.abspath(item.photo_path), item)  # noqa: PTH100  # links stay
+            where = item.where
+            where = where if is_address(where) else os.path.abspath(where)  # noqa: PTH100  # links stay
+            found.setdefault(where, item)
     if len(missing) == len(found):
         raise DatasetError(" ".join(one.reason for one in missing[:_MOST_SAID]))
     items = list(found.values())
@@ -115,13 +120,13 @@ def with_truth(dataset: Dataset) -> list[DatasetItem]:
         UsageError: No photo has a truth.
     """
     _tell(dataset)
-    usable = [item for item in dataset if item.truth_path]
+    usable = [item for item in dataset if item.has_truth]
     without = []
     for item in dataset:
-        if item.truth_path:
+        if item.has_truth:
             continue  # what is wrong with its photo is said when its turn comes
         try:
-            photo_size(item.photo_path)
+            item.size()
             without.append(item.name)
         except PhotoError as error:
             say(f"{str(Failure(item.name, str(error))).rstrip('.')}; it has no truth either.")
@@ -176,16 +181,17 @@ def _tell(dataset: Dataset) -> None:
         say_last(f"{dataset.name}: {sentence}")
 
 
-def _opened(named: Path | Missing, truths: Truths) -> Iterable[DatasetItem]:
+def _opened(named: Path | str | Missing, truths: Truths) -> Iterable[DatasetItem]:
     """The photos of what was named."""
     if isinstance(named, Missing):
         return [named]
-    if not named.is_dir():
-        return [DatasetItem(named.stem, named)]
+    path = Path(named)
+    if not is_label_table(named) and not path.is_dir():
+        return [DatasetItem(path.stem, path)]
     try:
         datasets = truths.open_all(named)
     except DatasetError as error:
-        return [Missing(named.name, named, reason=str(error))]
+        return [Missing(path.name, path, reason=str(error))]
     for dataset in datasets:
         _tell(dataset)
     return [item for dataset in datasets for item in dataset]

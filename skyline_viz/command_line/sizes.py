@@ -20,7 +20,7 @@ from skyline_viz.system.memory import (
 from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
-    from skyline_viz.datasets.layouts import DatasetItem
+    from skyline_viz.datasets.dataset import DatasetItem
 
 MaxMegapixels: TypeAlias = Annotated[float, tyro.conf.arg(metavar="N")]
 """Limit on the photos that are read, in million pixels."""
@@ -38,16 +38,17 @@ def limit(megapixels: float) -> None:
 
 
 def pixels_of(items: Iterable[DatasetItem]) -> list[tuple[DatasetItem, int]]:
-    """Photos and their pixels, without those whose header cannot be read."""
-    from skyline_viz.photo import PhotoError, photo_size
+    """Photos and their pixels, where the header of a file or a table tells them."""
+    from skyline_viz.photo import PhotoError
 
     found = []
     for item in items:
         try:
-            height, width = photo_size(item.photo_path)
+            size = item.size()
         except PhotoError:
             continue  # told when its turn comes
-        found.append((item, height * width))
+        if size is not None:
+            found.append((item, size[0] * size[1]))
     return found
 
 

@@ -11,7 +11,8 @@ from pathlib import Path
 
 from skyline_viz.arrays import U8
 from skyline_viz.command_line.messages import UsageError
-from skyline_viz.datasets.layouts import DatasetError, DatasetItem
+from skyline_viz.datasets.dataset import DatasetError, DatasetItem
+from skyline_viz.datasets.label_table import is_label_table
 from skyline_viz.storage.addresses import is_address
 from skyline_viz.storage.copies import copied
 
@@ -35,17 +36,20 @@ class Missing(DatasetItem):
         raise DatasetError(self.reason)
 
 
-def named(paths: Sequence[str | Path]) -> Iterator[Path | Missing]:
+def named(paths: Sequence[str | Path]) -> Iterator[Path | str | Missing]:
     """What a command line names: patterns become what they match, and ``@FILE`` what it lists.
 
-    An address becomes the folder of its copy.
+    An address becomes the folder of its copy; that of a table of labels stays.
 
     Raises:
         UsageError: A list cannot be read, or is empty.
         StorageError: An address leads nowhere.
     """
     for word in spelt_out(os.fspath(one) for one in paths):
-        yield from [copied(word)] if is_address(word) else _matched(Path(word))
+        if not is_address(word):
+            yield from _matched(Path(word))
+        else:
+            yield word if is_label_table(word) else copied(word)
 
 
 def spelt_out(words: Iterable[str]) -> Iterator[str]:

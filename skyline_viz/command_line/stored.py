@@ -3,36 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 
-from skyline_viz.arrays import U8
 from skyline_viz.command_line.inputs import collect, output_names
 from skyline_viz.command_line.sources import Missing, spelt_out
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
+from skyline_viz.datasets.label_table import is_label_table
 from skyline_viz.datasets.named_item import NamedItem
+from skyline_viz.datasets.stored_item import StoredItem
 from skyline_viz.storage.addresses import is_address
 from skyline_viz.storage.listing import photos_at
 from skyline_viz.storage.stored_photo import StoredPhoto
-
-
-@dataclass(frozen=True)
-class StoredItem(DatasetItem):
-    """A photo at an address. Its path is made from that, and names no file."""
-
-    stored: StoredPhoto = field(default_factory=lambda: StoredPhoto(""))
-    """The photo."""
-
-    def photo(self) -> U8:
-        """Download and decode the photo, ``(H, W, 3)`` uint8 RGB.
-
-        Raises:
-            PhotoError: It cannot be read.
-            StorageError: It cannot be downloaded.
-        """
-        pixels = self.stored.read()[1]
-        assert pixels is not None
-        return pixels
 
 
 def collect_stored(words: Sequence[str], taken: Sequence[str] = ()) -> list[NamedItem]:
@@ -46,11 +27,10 @@ def collect_stored(words: Sequence[str], taken: Sequence[str] = ()) -> list[Name
         DatasetError: A folder holds no photo, or several data sets.
         StorageError: An address leads nowhere, or to no photo.
     """
-    words = [*spelt_out(words)]
-    paths = [Path(word) for word in words if not is_address(word)]
+    paths, addresses = _sorted(words)
     found = collect(paths, taken=taken) if paths else []
-    stored = _listed(words)
-    items = [StoredItem(_stem(one.name), Path(one.name), stored=one) for one in stored]
+    stored = _listed(addresses)
+    items = [StoredItem(one.stem, Path(one.name), stored=one) for one in stored]
     names = output_names(items, [*taken, *(one.name for one in found)])
     return found + [NamedItem(name, item) for name, item in zip(names, items, strict=True)]
 
@@ -73,25 +53,25 @@ def photos_named(words: Sequence[str]) -> tuple[list[StoredPhoto], list[DatasetI
         DatasetError: A folder holds no photo, or several data sets.
         StorageError: An address leads nowhere, or to no photo.
     """
-    words = [*spelt_out(words)]
-    paths = [Path(word) for word in words if not is_address(word)]
+    paths, addresses = _sorted(words)
     files = [one.item for one in collect(paths)] if paths else []
-    return [*map(stored_photo, files), *_listed(words)], files
+    return [*map(stored_photo, files), *_listed(addresses)], files
 
 
-def _listed(words: Sequence[str]) -> list[StoredPhoto]:
+def _sorted(words: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Paths and tables of labels; and addresses of photos and of what holds them."""
+    paths: list[str] = []
+    addresses: list[str] = []
+    for word in spelt_out(words):
+        stored = is_address(word) and not is_label_table(word)
+        (addresses if stored else paths).append(word)
+    return paths, addresses
+
+
+def _listed(addresses: Sequence[str]) -> list[StoredPhoto]:
     """The photos at addresses, each once."""
     found: dict[str, StoredPhoto] = {}
-    for word in filter(is_address, words):
+    for word in addresses:
         for one in photos_at(word):
             found.setdefault(one.address, StoredPhoto(one.address, one.size, one.stamp))
     return [*found.values()]
-
-
-def _stem(address: str) -> str:
-    """The photo's name without its ending.
-
-    >>> _stem("zip://alps/eiger.jpg::s3://photos/all.zip"), _stem("https://host/a.b.png?raw=1")
-    ('eiger', 'a.b')
-    """
-    return Path(address.partition("::")[0].partition("?")[0]).stem

@@ -95,7 +95,7 @@ def detect_to_table(
     photos, files = photos_named(words)
     if shard is not None:
         photos = [one for one in photos if shard.holds(one.name)]
-        files = [one for one in files if shard.holds(str(one.photo_path))]
+        files = [one for one in files if shard.holds(one.where)]
         about = {**about, "shard": str(shard)}
     processes = foresee(files, workers) if files and cluster is None else workers
     with on_cluster(cluster, workers), table_at(out, shard) as table:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import tyro
 
 if TYPE_CHECKING:
-    from skyline_viz.datasets.layouts import Dataset
+    from skyline_viz.datasets.dataset import Dataset
 
 Value: TypeAlias = Annotated[str | None, tyro.conf.arg(metavar="VALUE")]
 
@@ -31,22 +31,23 @@ class Truths:
             raise ValueError("--sky and --terrain exclude each other: what is not one is the other")
 
     def open(self, folder: str | Path) -> Dataset:
-        """Open a data set, a folder or an address, whose truths are read in this way.
+        """Open a data set, a folder, an address or a table, whose truths are read in this way.
 
         Raises:
             StorageError: The address leads nowhere.
             DatasetError: As `skyline_viz.open_dataset`.
         """
+        from skyline_viz.datasets.label_table import is_label_table
         from skyline_viz.datasets.layouts import open_dataset
         from skyline_viz.storage.addresses import is_address
         from skyline_viz.storage.copies import copied
 
-        if is_address(folder):
+        if is_address(folder) and not is_label_table(folder):
             folder = copied(str(folder))
         return open_dataset(folder, sky=self.sky, terrain=self.terrain)
 
-    def open_all(self, folder: Path) -> list[Dataset]:
-        """Open the data sets of a folder, where it holds several.
+    def open_all(self, folder: str | Path) -> list[Dataset]:
+        """Open the data sets of a folder, where it holds several; or a table.
 
         Raises:
             DatasetError: As `skyline_viz.datasets.layouts.open_datasets`.

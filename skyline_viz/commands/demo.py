@@ -16,7 +16,8 @@ from skyline_viz.command_line.settings import Folder
 from skyline_viz.command_line.sizes import MaxMegapixels
 from skyline_viz.commands.gallery import build, show, show_picture
 from skyline_viz.commands.render import write_with_progress
-from skyline_viz.datasets.layouts import DatasetError, open_dataset
+from skyline_viz.datasets.dataset import DatasetError
+from skyline_viz.datasets.layouts import open_dataset
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+import hashlib
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -21,8 +22,9 @@ from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.run_record import RECORD, Beginning
 from skyline_viz.command_line.settings import ClusterAddress, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
-from skyline_viz.command_line.stored import StoredItem, collect_stored, stored_photo
+from skyline_viz.command_line.stored import collect_stored, stored_photo
 from skyline_viz.command_line.to_table import detect_to_table, is_table_name, shard_of
+from skyline_viz.datasets.stored_item import StoredItem
 from skyline_viz.running.batch import Failure
 from skyline_viz.running.photo_table import (
     TABLE,
@@ -41,6 +43,8 @@ from skyline_viz.system.notes import note
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from skyline_viz.arrays import U8
+    from skyline_viz.datasets.dataset import DatasetItem
     from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.method import Method
     from skyline_viz.skyline import Skyline
@@ -197,9 +201,7 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
     from skyline_viz.certainty.least_sure import least_sure
     from skyline_viz.running.warming import warm_up
 
-    where = stored_photo(photo.item)
-    digest, pixels = where.read()
-    assert pixels is not None
+    digest, pixels = _read(photo.item)
     warm_up()
     found = detector.detect(pixels)
     line, margins = found.skyline, found.margins()
@@ -227,7 +229,7 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
     seen = found.visibility
     row = PhotoRow(
         photo.name,
-        _file(photo),
+        photo.item.where,
         sha256=digest,
         size=(height, line.width),
         confidence=found.confidence,
@@ -236,6 +238,15 @@ def _detect(options: Detect, detector: Method, photo: NamedItem) -> _Found:
         seconds=found.total_seconds,
     )
     return _Found(row, tuple(files), seen.doubt if seen else "")
+
+
+def _read(item: DatasetItem) -> tuple[str, U8]:
+    """SHA-256 of a photo's file, and its pixels."""
+    if isinstance(item, StoredItem):
+        return hashlib.sha256(item.file()).hexdigest(), item.photo()
+    digest, pixels = stored_photo(item).read()
+    assert pixels is not None
+    return digest, pixels
 
 
 def _truth_of(photo: NamedItem, width: int) -> Skyline | None:
@@ -260,19 +271,15 @@ def _key(options: Detect, digest: str, photo: NamedItem) -> str:
     """Digest of all that the outputs of a photo are made from.
 
     Raises:
-        OSError: It cannot be read; or its storage says nothing of its content, and it would have to
-            be downloaded twice.
+        OSError: It cannot be read.
+        StorageError: It cannot be downloaded.
     """
     from skyline_viz.running.resume import digest_of, digest_of_files
 
     item = photo.item
     files = (options.mask, options.overlay, options.overlay_width, options.json)
-    start = digest_of("detect", digest, files, photo.name, str(_file(photo)))
-    if not isinstance(item, StoredItem):
-        return digest_of_files(start, item if options.overlay else replace(item, truth_path=None))
-    if not item.stored.stamp:
-        raise FileNotFoundError(item.stored.name)
-    return digest_of(start, item.stored.stamp)
+    start = digest_of("detect", digest, files, photo.name, item.where)
+    return digest_of_files(start, item if options.overlay else item.without_truth())
 
 
 def _pack(found: _Found) -> dict[str, Any]:
@@ -286,15 +293,10 @@ def _unpack(kept: dict[str, Any]) -> _Found:
     return _Found(row_from(kept["row"]), files, str(kept["doubt"]))
 
 
-def _file(photo: NamedItem) -> Path | str:
-    item = photo.item
-    return item.stored.name if isinstance(item, StoredItem) else item.photo_path
-
-
 def _failed(photo: NamedItem, failure: Failure) -> PhotoRow:
     """What there is to know of a photo that failed."""
     digest = digest_of_content(photo.item.photo_path)
-    return PhotoRow(photo.name, _file(photo), digest, error=failure.reason)
+    return PhotoRow(photo.name, photo.item.where, digest, error=failure.reason)
 
 
 def _sum_up(out: Path, rows: Sequence[PhotoRow], wide: int) -> None:

@@ -51,7 +51,7 @@ from skyline_viz.viewer.frugal import import_frugally
 if TYPE_CHECKING:
     import rerun as rr
 
-    from skyline_viz.datasets.layouts import DatasetItem
+    from skyline_viz.datasets.dataset import DatasetItem
     from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Method

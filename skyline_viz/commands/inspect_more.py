@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import rerun as rr
 
     from skyline_viz.arrays import U8
-    from skyline_viz.datasets.layouts import Dataset
+    from skyline_viz.datasets.dataset import Dataset
     from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.detecting.filter_detection import FilterDetection
     from skyline_viz.detection import Detection

@@ -12,7 +12,7 @@ from skyline_viz.command_line.sizes import foresee
 from skyline_viz.system.memory import RECORDING
 
 if TYPE_CHECKING:
-    from skyline_viz.datasets.layouts import DatasetItem
+    from skyline_viz.datasets.dataset import DatasetItem
     from skyline_viz.method import Method
 
 

@@ -31,7 +31,7 @@ from skyline_viz.system.memory import MAX_MEGAPIXELS
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from skyline_viz.datasets.layouts import DatasetItem
+    from skyline_viz.datasets.dataset import DatasetItem
     from skyline_viz.detector import Detector
     from skyline_viz.filter_bank import FilterBank
     from skyline_viz.method import Configurable

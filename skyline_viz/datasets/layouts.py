@@ -10,6 +10,8 @@ GeoPose3K  ``NAME/photo.jpg``                 ``NAME/pinhole/labels*.png``, ``NA
 plain      wherever they lie in the folder    in a folder of truths, or beside the photo
 =========  =================================  ====================================================
 
+A file whose name ends in ``.parquet`` is a table of labels, see `datasets.label_table`.
+
 What a truth may be, `skyline_viz.truths` says. Folders of truths are ``ground_truth/``, ``masks/``,
 ``truth/``, ``labels/`` and others, see `matching.TRUTH_FOLDERS`. A truth has the photo's name,
 to which ``_mask``, ``_edge``, ``_gt``, ``_truth`` or ``_label`` may be added, with ``-`` or ``_``.
@@ -21,12 +23,12 @@ are not used.
 """
 
 import os
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Literal
 
-from skyline_viz.arrays import U8
+from skyline_viz.datasets.dataset import Dataset, DatasetError, DatasetItem, Layout
+from skyline_viz.datasets.label_table import TableItem, is_label_table, open_label_table
 from skyline_viz.datasets.matching import (
     IMAGE_FOLDERS,
     NUMBERED,
@@ -37,96 +39,10 @@ from skyline_viz.datasets.matching import (
 )
 from skyline_viz.datasets.pairing import item_names, paired
 from skyline_viz.datasets.tree import Tree
-from skyline_viz.datasets.truths import truth_with_notes
-from skyline_viz.photo import read_photo_with_notes
 from skyline_viz.picture_files.kinds import left_out
-from skyline_viz.skyline import Skyline
-from skyline_viz.system.notes import note
-
-Layout = Literal["Basalt", "Web", "CH1", "GeoPose3K", "plain"]
-"""The published layouts, and the folder of photographs that follows none of them."""
 
 _GEOPOSE3K_DEEP = 2  # parts of NAME/photo.jpg
 _CH1_PARTS = ("cvg", "panoramio", "poor_edge_images")
-
-
-class DatasetError(ValueError):
-    """A folder is not a data set; the message is one sentence naming the folder and the reason."""
-
-
-@dataclass(frozen=True)
-class DatasetItem:
-    """One photo of a data set and its truth, both read only when asked for."""
-
-    name: str
-    """Unique in the data set: the file's stem, for CH1 ``part/stem``, for GeoPose3K the folder."""
-
-    photo_path: Path
-    """The photo's file."""
-
-    truth_path: Path | None = None
-    """The truth's file: painted photo, mask, label map, CSV or JSON. None where there is none."""
-
-    label_map: bool = False
-    """Whether the truth is a GeoPose3K label map, in which black is sky."""
-
-    sky: str | None = None
-    """Which value of a mask is sky, as `read_truth` takes it; told by the mask unless given."""
-
-    terrain: str | None = None
-    """Which value of a mask is terrain, instead of `sky`."""
-
-    def photo(self) -> U8:
-        """Read the photo, ``(H, W, 3)`` uint8 RGB; what there is to know about it is noted.
-
-        Raises:
-            PhotoError: It cannot be read.
-        """
-        photo, notes = read_photo_with_notes(self.photo_path)
-        for one in notes:
-            note(one)
-        return photo
-
-    def truth(self) -> Skyline | None:
-        """Read the truth; None where there is none. What was left out of it is noted.
-
-        Raises:
-            SkylineError: The file is damaged, or is no truth; the message names it.
-        """
-        if self.truth_path is None:
-            return None
-        path, sky, terrain = self.truth_path, self.sky, self.terrain
-        line = truth_with_notes(path, self.label_map, sky=sky, terrain=terrain)
-        if line.notes:
-            note(f"{path}: {'; '.join(line.notes)}.")
-        return line.skyline
-
-
-@dataclass(frozen=True)
-class Dataset:
-    """The photos of a folder, sorted by name: iterate over it, or ask for its length."""
-
-    name: str
-    """The name of the folder."""
-
-    layout: Layout
-    """How photos and truths were matched."""
-
-    items: tuple[DatasetItem, ...]
-    """The photos with their truths, by name."""
-
-    problems: tuple[str, ...] = ()
-    """One sentence for each truth that was left out, naming it and the reason."""
-
-    left_out: tuple[str, ...] = ()
-    """What else lies there: a sentence about pictures that cannot be read, grouped by the reason,
-    one about those that our programs have written, and one about photos beside a data set."""
-
-    def __iter__(self) -> Iterator[DatasetItem]:
-        return iter(self.items)
-
-    def __len__(self) -> int:
-        return len(self.items)
 
 
 def open_dataset(
@@ -137,17 +53,19 @@ def open_dataset(
     Photos are also looked for in the folders below, see `skyline_viz.datasets.tree`. Looks at names
     and headers and reads no pixels, but for masks of numbers that no photo has. A photo without
     truth is fine. A truth without photo, or of another size than its photo, is left out and named
-    in `Dataset.problems`. Hidden files are ignored.
+    in `Dataset.problems`. Hidden files are ignored. A table of labels is a data set, too, see
+    `skyline_viz.datasets.label_table`.
 
     Args:
-        folder: The folder.
+        folder: The folder; or the table, by a path or an address that ends in ``.parquet``.
         sky: Which value of masks is sky, as `skyline_viz.truths.read_truth` takes it; told by each
             mask itself unless given.
         terrain: Which value of masks is terrain, instead of `sky`.
 
     Raises:
         DatasetError: The folder is missing, is a file, cannot be listed, holds no photograph, or
-            holds several data sets.
+            holds several data sets; or the table is damaged.
+        StorageError: The address of a table leads nowhere.
     """
     found = open_datasets(folder, sky=sky, terrain=terrain)
     if len(found) > 1:
@@ -162,8 +80,12 @@ def open_datasets(
     """Open a folder as `open_dataset` does; where it holds several published data sets, each one.
 
     Raises:
-        DatasetError: The folder is missing, is a file, cannot be listed, or holds no photograph.
+        DatasetError: The folder is missing, is a file, cannot be listed, or holds no photograph; or
+            the table is damaged.
+        StorageError: The address of a table leads nowhere.
     """
+    if is_label_table(folder):
+        return [open_label_table(os.fspath(folder))]
     root = Path(folder)
     try:
         if not root.is_dir():
@@ -187,6 +109,8 @@ def open_datasets(
 
 def truth_names(item: DatasetItem) -> str:
     """Names by which the truth of a photo would be found, in words."""
+    if isinstance(item, TableItem):
+        return "a list of numbers in the column rows"
     stem = item.photo_path.stem
     if item.label_map:
         return f"labels.png in {item.photo_path.parent.name} or its folder pinhole"

@@ -13,13 +13,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from skyline_viz.datasets.coco import POLYGON
+from skyline_viz.datasets.dataset import DatasetError, DatasetItem
 from skyline_viz.datasets.item import Item
 from skyline_viz.datasets.label_picture import label_size
-from skyline_viz.datasets.layouts import DatasetError, DatasetItem
 from skyline_viz.datasets.line_documents import LineInCoco, documents_in, lines_in
 from skyline_viz.datasets.matching import TRUTH_FOLDERS, bare_stem, common_name
 from skyline_viz.datasets.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, read_truth
-from skyline_viz.photo import PHOTO_SUFFIXES, photo_size
+from skyline_viz.photo import PHOTO_SUFFIXES
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.system.names import listed
 
@@ -105,8 +105,8 @@ class Predictions:
 
 def size_of(item: Item) -> tuple[int, int]:
     """Height and width of a photo, from its header where it is a file."""
-    if isinstance(item, DatasetItem):
-        return photo_size(item.photo_path)
+    if isinstance(item, DatasetItem) and (size := item.size()) is not None:
+        return size
     height, width = item.photo().shape[:2]
     return height, width
 

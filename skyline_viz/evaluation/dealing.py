@@ -13,8 +13,8 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.datasets.item import Item, listed
-from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.files import write_text
 from skyline_viz.running.batch import Failure, run
 from skyline_viz.system.fingerprints import fingerprint, near_groups

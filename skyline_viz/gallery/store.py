@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.diagnosis.causes import Cause
 from skyline_viz.diagnosis.diagnosing import diagnose
@@ -143,7 +143,7 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
     file = gallery.recording(task.name)
     there = file.exists() and gallery.thumbnail(task.name).exists()
     if task.known and task.known.made_from == made_from and there:
-        return replace(task.known, photo=str(item.photo_path))
+        return replace(task.known, photo=item.where)
     photo, truth = item.photo(), item.truth()
     warm_up()
     detection = looks.method.detect(photo)
@@ -169,7 +169,6 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
                 "turned_by": parted.turned_by,
             }
     write_thumbnail(gallery.thumbnail(task.name), photo, detection.skyline, truth)
-    photo_file = str(item.photo_path)
     stages = Contents.of(detection, "lean").stages
     shown = detection.visibility
     about = {
@@ -182,4 +181,4 @@ def _work(gallery: Gallery, looks: _Looks, task: _Task) -> Entry:
         **against,
     }
     height, width = photo.shape[:2]
-    return Entry(task.name, photo_file, made_from, height, width, verdict, stages, **about)
+    return Entry(task.name, item.where, made_from, height, width, verdict, stages, **about)

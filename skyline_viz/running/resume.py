@@ -16,14 +16,14 @@ import json
 import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from skyline_viz import __version__
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.datasets.item import Item
-from skyline_viz.datasets.layouts import DatasetItem
 from skyline_viz.files import write_text
 from skyline_viz.method import Method
 from skyline_viz.methods.registry import method_digest
@@ -195,10 +195,8 @@ def digest_of_files(start: str, item: DatasetItem) -> str:
         OSError: A file cannot be read.
     """
     digest = hashlib.sha256(f"{start} {item.sky} {item.terrain}".encode())
-    for path in (item.photo_path, item.truth_path):
-        if path is not None:
-            with path.open("rb") as file:
-                digest.update(hashlib.file_digest(file, "sha256").digest())
+    for one in item.contents():
+        digest.update(one)
     return digest.hexdigest()
 
 
@@ -208,8 +206,7 @@ def digest_of_item(start: str, item: Item) -> str:
         truth = item.truth()
         parts = () if truth is None else (truth.rows.tobytes(), truth.visible.tobytes())
         return digest_of(start, item.name, item.photo().tobytes(), *parts)
-    values = {one.name: getattr(item, one.name) for one in fields(item)}
-    told = {name: value for name, value in values.items() if not isinstance(value, Path)}
+    told = (item.name, item.label_map, item.sky, item.terrain)
     return digest_of_files(digest_of(start, told), item)
 
 

@@ -38,6 +38,20 @@ class StoredPhoto:
     missing: str = ""
     """Why there is no photo, in a sentence; empty where there is one."""
 
+    @property
+    def stem(self) -> str:
+        """What the photo is called, without its ending.
+
+        >>> StoredPhoto("zip://alps/eiger.jpg::s3://photos/all.zip").stem
+        'eiger'
+        >>> StoredPhoto("https://host/a.b.png?raw=1").stem
+        'a.b'
+        """
+        inner = self.name
+        if is_address(self.name):
+            inner = self.name.partition("::")[0].partition("?")[0]
+        return Path(inner).stem
+
     @contextmanager
     def opened(self) -> Iterator[BinaryIO]:
         """Its bytes: a file that is open, or a download that is whole.

@@ -5,7 +5,7 @@ import pytest
 from skyline_viz.command_line import sizes
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.sizes import foresee, limit, pixels_of, say_too_large
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.system.memory import SHARE, needed, photo_limit
 from testing.pictures import NOISE, save
 

@@ -10,7 +10,7 @@ import pytest
 from skyline_viz.command_line.inputs import collect
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.sources import Missing, named
-from skyline_viz.datasets.layouts import DatasetError
+from skyline_viz.datasets.dataset import DatasetError
 from testing.datasets import put
 
 

@@ -3,7 +3,8 @@
 import fsspec
 import pytest
 
-from skyline_viz.command_line.stored import StoredItem, collect_stored, photos_named, stored_photo
+from skyline_viz.command_line.stored import collect_stored, photos_named, stored_photo
+from skyline_viz.datasets.stored_item import StoredItem
 from skyline_viz.storage.addresses import StorageError
 from testing.programs.commands import scene, write_scene
 

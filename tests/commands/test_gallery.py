@@ -7,7 +7,7 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.cli import main
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.gallery.flags import Change, Flag, change_flags, read_flags
 from skyline_viz.gallery.store import Gallery

@@ -10,7 +10,8 @@ from PIL import Image
 import skyline_viz as sv
 from skyline_viz import photo
 from skyline_viz.datasets import tree
-from skyline_viz.datasets.layouts import DatasetError, open_datasets
+from skyline_viz.datasets.dataset import DatasetError
+from skyline_viz.datasets.layouts import open_datasets
 from testing.datasets import (
     HEIGHT,
     MASK,

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from skyline_viz.command_line.inputs import collect
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.evaluation.verdict import Verdict
 from skyline_viz.gallery import flag_page as module

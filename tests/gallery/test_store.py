@@ -8,7 +8,7 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.command_line.inputs import collect
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.gallery.documents import GalleryError
 from skyline_viz.gallery.entry import by_need

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.photo import PhotoError
 from skyline_viz.running import batch
 from skyline_viz.running.batch import BatchError, Failure, chosen_workers, run, sentence

@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from skyline_viz.arrays import U8, check_photo
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.detection import Detection, timed
 from skyline_viz.method import Configurable, MethodError, UnnamedClassError
 from skyline_viz.methods.finding.importing import class_at, failed_in, offered

@@ -8,7 +8,7 @@ import pytest
 
 import skyline_viz as sv
 from annotate.store.kept_detectors import pack, unpack
-from skyline_viz.datasets.layouts import DatasetItem
+from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.method import MethodError
 from skyline_viz.methods.registry import make_method, method_digest
 from skyline_viz.skyline import Skyline
