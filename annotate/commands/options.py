@@ -37,7 +37,9 @@ HostNames: TypeAlias = Annotated[
 ]
 """Names of a machine, given once for each of them."""
 
-FormatName: TypeAlias = Literal["mask", "painted", "ch1", "csv", "json", "coco", "labelme", "cvat"]
+FormatName: TypeAlias = Literal[
+    "mask", "painted", "ch1", "csv", "json", "coco", "labelme", "cvat", "parquet"
+]
 """A format in which labels leave and come back."""
 
 

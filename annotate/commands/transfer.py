@@ -48,7 +48,7 @@ class Export:
     """Folder to make; skylines-FORMAT unless given."""
 
     format: FormatName = "csv"
-    """csv, json, mask, painted, ch1, coco, labelme or cvat."""
+    """csv, json, mask, painted, ch1, coco, labelme, cvat or parquet."""
 
     status: Literal["accepted", "all"] = "accepted"
     """Which labels: the accepted ones, or all that have a line."""

@@ -13,6 +13,7 @@ coco      ``annotations-polygon.json``,             nothing
           ``annotations-rle.json``
 labelme   ``NAME.json``                             which columns are visible, tags, comment
 cvat      ``annotations.xml``                       which columns are visible, tags
+parquet   ``labels.parquet``, a table of labels     which columns are visible, tags
 ========  ========================================  ==========================================
 
 Rows of columns that are not visible are guesses, and come back as interpolated ones from painted
@@ -28,7 +29,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from annotate.formats import coco, cvat, labelme, masks, tables, whole
+from annotate.formats import coco, cvat, labelme, masks, parquet, tables, whole
 from annotate.formats.common import (
     Entry,
     Imported,
@@ -73,6 +74,7 @@ FORMATS: dict[str, tuple[Writer, Reader]] = {
     "coco": (coco.write_coco, _drawn("coco")),
     "labelme": (labelme.write_labelme, _drawn("labelme")),
     "cvat": (cvat.write_cvat, _drawn("cvat")),
+    "parquet": (parquet.write_parquet, parquet.read_parquet),
 }
 """How each format is written and read."""
 
@@ -85,6 +87,7 @@ TITLES = {
     "coco": "COCO",
     "labelme": "LabelMe",
     "cvat": "CVAT",
+    "parquet": "Parquet: a table of labels",
 }
 """What each format is called where people choose one."""
 

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from annotate.formats.documents import json_of, xml_of
+from skyline_viz.datasets.parquet_files import SUFFIX
 from skyline_viz.photo import PHOTO_SUFFIXES
 from skyline_viz.skyline import CSV_HEADERS
 
-READ = frozenset({"json", "coco", "labelme", "cvat", "csv", "mask"})
+READ = frozenset({"json", "coco", "labelme", "cvat", "csv", "mask", "parquet"})
 """Kinds that are formats; any other kind is in words."""
 
 _SAYS = {"skyline-labels": "json", "skyline": "csv"}
@@ -30,6 +31,8 @@ def kind_of(file: Path) -> str:
         return _kind_of_csv(_first_line(file))
     if ending in PHOTO_SUFFIXES:
         return "mask"
+    if ending == SUFFIX:
+        return "parquet"
     return "YOLO text; export COCO instead" if ending == ".txt" and _is_yolo(file) else ""
 
 

@@ -9,10 +9,10 @@ from skyline_viz.command_line.messages import UsageError, say, say_last
 from skyline_viz.command_line.sources import Missing, named
 from skyline_viz.command_line.truth_options import Truths
 from skyline_viz.datasets.dataset import Dataset, DatasetError, DatasetItem
-from skyline_viz.datasets.label_table import is_label_table
 from skyline_viz.datasets.layouts import truth_names
 from skyline_viz.datasets.matching import IMAGE_FOLDERS, TRUTH_FOLDERS
 from skyline_viz.datasets.named_item import NamedItem
+from skyline_viz.datasets.parquet_files import is_label_table
 from skyline_viz.photo import PhotoError
 from skyline_viz.running.batch import Failure
 from skyline_viz.storage.addresses import is_address

@@ -12,7 +12,7 @@ from pathlib import Path
 from skyline_viz.arrays import U8
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.datasets.dataset import DatasetError, DatasetItem
-from skyline_viz.datasets.label_table import is_label_table
+from skyline_viz.datasets.parquet_files import is_label_table
 from skyline_viz.storage.addresses import is_address
 from skyline_viz.storage.copies import copied
 

@@ -8,8 +8,8 @@ from pathlib import Path
 from skyline_viz.command_line.inputs import collect, output_names
 from skyline_viz.command_line.sources import Missing, spelt_out
 from skyline_viz.datasets.dataset import DatasetItem
-from skyline_viz.datasets.label_table import is_label_table
 from skyline_viz.datasets.named_item import NamedItem
+from skyline_viz.datasets.parquet_files import is_label_table
 from skyline_viz.datasets.stored_item import StoredItem
 from skyline_viz.storage.addresses import is_address
 from skyline_viz.storage.listing import photos_at

@@ -37,8 +37,8 @@ class Truths:
             StorageError: The address leads nowhere.
             DatasetError: As `skyline_viz.open_dataset`.
         """
-        from skyline_viz.datasets.label_table import is_label_table
         from skyline_viz.datasets.layouts import open_dataset
+        from skyline_viz.datasets.parquet_files import is_label_table
         from skyline_viz.storage.addresses import is_address
         from skyline_viz.storage.copies import copied
 

@@ -28,7 +28,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from skyline_viz.datasets.dataset import Dataset, DatasetError, DatasetItem, Layout
-from skyline_viz.datasets.label_table import TableItem, is_label_table, open_label_table
+from skyline_viz.datasets.label_table import open_label_table
 from skyline_viz.datasets.matching import (
     IMAGE_FOLDERS,
     NUMBERED,
@@ -38,6 +38,8 @@ from skyline_viz.datasets.matching import (
     is_label_map,
 )
 from skyline_viz.datasets.pairing import item_names, paired
+from skyline_viz.datasets.parquet_files import is_label_table
+from skyline_viz.datasets.table_item import TableItem
 from skyline_viz.datasets.tree import Tree
 from skyline_viz.picture_files.kinds import left_out
 

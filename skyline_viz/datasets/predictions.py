@@ -11,13 +11,17 @@ import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeAlias
 
 from skyline_viz.datasets.coco import POLYGON
 from skyline_viz.datasets.dataset import DatasetError, DatasetItem
 from skyline_viz.datasets.item import Item
 from skyline_viz.datasets.label_picture import label_size
+from skyline_viz.datasets.label_table import open_label_table
 from skyline_viz.datasets.line_documents import LineInCoco, documents_in, lines_in
 from skyline_viz.datasets.matching import TRUTH_FOLDERS, bare_stem, common_name
+from skyline_viz.datasets.parquet_files import SUFFIX, is_label_table
+from skyline_viz.datasets.table_item import TableItem
 from skyline_viz.datasets.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, read_truth
 from skyline_viz.photo import PHOTO_SUFFIXES
 from skyline_viz.skyline import Skyline, SkylineError
@@ -60,6 +64,32 @@ class LineFile:
             return read_truth(self.path, sky=self.sky, terrain=self.terrain)
 
 
+@dataclass(frozen=True)
+class LineInTable:
+    """The line of a photo in a Parquet table."""
+
+    item: TableItem
+    """The row."""
+
+    def read(self, size: tuple[int, int]) -> Skyline:
+        """The line on a photo of a size ``(height, width)``.
+
+        Raises:
+            SkylineError: Damaged, or of another size.
+        """
+        own, line = self.item.pixels or size, self.item.truth()
+        assert line is not None  # what has none is left out
+        if own != size:
+            raise SkylineError(
+                f"its line is for {own[1]}x{own[0]} pixels, and the photo has {size[1]}x{size[0]}."
+            )
+        return line
+
+
+Line: TypeAlias = Skyline | LineFile | LineInCoco | LineInTable
+"""A line, or where it is read from."""
+
+
 @dataclass(frozen=True, eq=False)
 class Predictions:
     """Lines by the names of their photos; `skyline_viz.evaluate` takes them as it takes a method.
@@ -72,7 +102,7 @@ class Predictions:
     name: str
     """What they are called in tables."""
 
-    lines: Mapping[str, Skyline | LineFile | LineInCoco]
+    lines: Mapping[str, Line]
     """The line of each photo, or where it is read from."""
 
     extra: tuple[str, ...] = ()
@@ -124,8 +154,9 @@ def open_predictions(
     A file is called as its photo is, with another ending, and with ``_mask`` or the like besides,
     as truths are; or as `skyline-viz detect` and `skyline-annotate export` call theirs. Of several
     files of a photo CSV counts first, then JSON, then pictures. A document may hold the lines of
-    many photos: COCO, or ``labels.json`` of an export. The table and the record of a run of
-    `skyline-viz detect` are no lines, nor are its pictures ``NAME-overlay.jpg``.
+    many photos: COCO, ``labels.json`` of an export, or a Parquet table, see `label_table`. The
+    table and the record of a run of `skyline-viz detect` into a folder are no lines, nor are its
+    pictures ``NAME-overlay.jpg``.
 
     Args:
         source: The folder or file.
@@ -135,16 +166,20 @@ def open_predictions(
         terrain: Which value is terrain, instead of `sky`.
 
     Raises:
-        DatasetError: It is missing, cannot be listed, or holds no line for any of the photos.
+        DatasetError: It is missing, cannot be listed, or holds no line for any of the photos; or a
+            table is damaged.
     """
     root, items = Path(source), list(items)
     if not root.exists():
         raise DatasetError(f"{root} does not exist.")
     found = _Matching(root, _Names(items), sky, terrain)
-    texts, others, pictures = _sorted_out(_files(root))
+    files = [root] if is_label_table(root) else _files(root)
+    texts, others, pictures = _sorted_out(files)
     for file in texts:
         found.add(file)
     found.add_documents(others)
+    for file in filter(is_label_table, files):
+        found.add_table(file)
     for file in pictures:
         found.add(file)
     if not found.lines:
@@ -163,7 +198,7 @@ class _Matching:
     names: _Names
     sky: str | None
     terrain: str | None
-    lines: dict[str, Skyline | LineFile | LineInCoco] = field(default_factory=dict)
+    lines: dict[str, Line] = field(default_factory=dict)
     extra: list[str] = field(default_factory=list)
     notes: dict[str, list[str]] = field(default_factory=dict)
 
@@ -191,6 +226,19 @@ class _Matching:
             if file not in known and file.name not in _OURS:
                 self.note("not used, because they hold no skyline", file.name)
 
+    def add_table(self, file: Path) -> None:
+        """Take the lines of a table.
+
+        Raises:
+            DatasetError: It is damaged.
+        """
+        for item in open_label_table(os.fspath(file)):
+            if not isinstance(item, TableItem) or not item.has_truth:
+                self.note(f"without a line in {file.name}", item.name)
+                continue
+            names = [Path(f"{one}{SUFFIX}") for one in (item.name, item.stored.stem)]
+            self._take(f"{item.name} in {file.name}", names, LineInTable(item))
+
     def problem(self, sentence: str) -> None:
         """See `coco.Reports`."""
         self.note("not used", sentence.rstrip("."))
@@ -200,7 +248,10 @@ class _Matching:
         self.notes.setdefault(text, []).append(f"{of}")
 
     def _take(
-        self, called: str, names: Sequence[Path], line: Skyline | LineFile | LineInCoco
+        self,
+        called: str,
+        names: Sequence[Path],
+        line: Line,
     ) -> None:
         photos = next(filter(None, map(self.names.meant_by, names)), set())
         if not photos:

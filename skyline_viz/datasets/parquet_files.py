@@ -1,0 +1,72 @@
+"""Parquet files of this machine or of a storage: what is one, and how it is opened."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from skyline_viz.datasets.dataset import DatasetError
+from skyline_viz.storage.addresses import address_of, file_system, is_address, naming, needed
+
+SUFFIX = ".parquet"
+"""How the name of a table ends."""
+
+
+def is_label_table(where: str | os.PathLike[str]) -> bool:
+    """Whether a path or an address is that of a table.
+
+    >>> is_label_table("s3://labels/alps.parquet"), is_label_table("photos")
+    (True, False)
+    """
+    return os.fspath(where).rstrip("/\\").lower().endswith(SUFFIX)
+
+
+def files_of(where: str) -> list[str]:
+    """The file of a table, or those of a folder of tables.
+
+    Raises:
+        DatasetError: A folder holds none.
+        StorageError: An address leads nowhere.
+    """
+    if is_address(where):
+        found, path = file_system(where)
+        with naming(where):
+            if not found.isdir(path):
+                return [where]
+            inside = sorted(one for one in found.ls(path, detail=False) if is_label_table(one))
+        files = [address_of(found, one, where) for one in inside]
+    else:
+        if not Path(where).is_dir():
+            return [where]
+        files = sorted(str(one) for one in Path(where).iterdir() if is_label_table(one))
+    if not files:
+        raise DatasetError(f"{where} holds no table, a file *{SUFFIX}.")
+    return files
+
+
+@contextmanager
+def parquet(file: str) -> Iterator[Any]:
+    """An open table.
+
+    Raises:
+        DatasetError: It is missing, damaged, or no table.
+        StorageError: Its address leads nowhere.
+    """
+    parquet = needed("pyarrow.parquet", "a table of labels")
+    try:
+        if is_address(file):
+            found, path = file_system(file)
+            with naming(file):
+                opened = found.open(path, "rb")
+        else:
+            opened = Path(file).open("rb")  # noqa: SIM115 - closed below
+        with opened, parquet.ParquetFile(opened) as table:
+            yield table
+    except needed("pyarrow", "a table of labels").ArrowException as error:
+        raise DatasetError(f"{file} is damaged, or no Parquet table.") from error
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise DatasetError(f"{file} cannot be read: {reason}.") from error

@@ -1,0 +1,138 @@
+"""A photo of a table of labels: its truth is a row, which is read when it is asked for."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from skyline_viz.arrays import U8
+from skyline_viz.datasets.dataset import DatasetError
+from skyline_viz.datasets.parquet_files import parquet
+from skyline_viz.datasets.stored_item import StoredItem
+from skyline_viz.photo import PhotoError
+from skyline_viz.skyline import Skyline, SkylineError
+
+
+@dataclass(frozen=True, slots=True)
+class RowPlace:
+    """Where a row lies."""
+
+    file: str
+    """Path or address of the table's file."""
+
+    group: int
+    """Number of its row group."""
+
+    row: int
+    """Number in the group."""
+
+    photo: str
+    """The photo that it names."""
+
+
+@dataclass(frozen=True)
+class TableItem(StoredItem):
+    """A photo of a table, and its truth."""
+
+    pixels: tuple[int, int] | None = None
+    """Height and width, where the table says them."""
+
+    sha256: str = ""
+    """Digest of the photo that was labelled; empty where the table does not say it."""
+
+    place: RowPlace | None = None
+    """Where its truth is; None where it has none, or has it with it."""
+
+    line: Skyline | None = None
+    """Its truth, once it travels."""
+
+    @property
+    def has_truth(self) -> bool:
+        """Whether there is a truth, sound or damaged."""
+        return self.place is not None or self.line is not None or super().has_truth
+
+    def size(self) -> tuple[int, int] | None:
+        """Height and width that the table says; None where it says nothing."""
+        return self.pixels
+
+    def photo(self) -> U8:
+        """Read the photo, and make sure that it is the one that was labelled.
+
+        Raises:
+            PhotoError: It cannot be read, or is another one.
+            StorageError: It cannot be downloaded.
+        """
+        if self.sha256 and hashlib.sha256(self.file()).hexdigest() != self.sha256.lower():
+            raise PhotoError(
+                f"{self.where} is not the file that was labelled: its SHA-256 is another one; "
+                f"leave the column sha256 out to take it all the same."
+            )
+        found = super().photo()
+        if self.pixels is not None and found.shape[:2] != self.pixels:
+            (height, width), (rows, columns) = found.shape[:2], self.pixels
+            raise PhotoError(
+                f"{self.where} has {width}x{height} pixels, and its label is for {columns}x{rows}."
+            )
+        return found
+
+    def truth(self) -> Skyline | None:
+        """The line of its row; None where there is none.
+
+        Raises:
+            SkylineError: It is damaged, or the table has changed.
+            StorageError: The table cannot be downloaded.
+        """
+        if self.truth_path is not None:  # another one was named
+            return super().truth()
+        if self.place is None:
+            return self.line
+        return _line(self.place, self.where)
+
+    def contents(self) -> Iterator[bytes]:
+        """What tells the contents of the photo, and of its truth; see `StoredItem.contents`."""
+        yield from super().contents()
+        if (line := self.truth()) is not None:
+            yield hashlib.sha256(line.rows.tobytes() + line.visible.tobytes()).digest()
+
+    def without_truth(self) -> TableItem:
+        """The photo alone."""
+        return replace(self, truth_path=None, place=None, line=None)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """As it travels: with its truth."""
+        if self.place is None:
+            return self.__dict__
+        return {**self.__dict__, "line": self.truth(), "place": None}
+
+
+@lru_cache(maxsize=2)
+def row_group(file: str, number: int) -> Any:  # noqa: ANN401
+    """The lines of a row group."""
+    with parquet(file) as table:
+        names = [one for one in ("photo", "rows", "visible") if one in table.schema_arrow.names]
+        return table.read_row_group(number, columns=names)
+
+
+def _line(place: RowPlace, photo: str) -> Skyline:
+    """The line of a row.
+
+    Raises:
+        SkylineError: It is damaged, or the table has changed.
+    """
+    try:
+        group = row_group(place.file, place.group)
+        if group.column("photo")[place.row].as_py() != place.photo:
+            raise SkylineError("the table has changed since it was opened.")
+        rows = group.column("rows")[place.row].values.to_numpy(zero_copy_only=False)
+        visible = np.isfinite(rows)
+        if "visible" in group.column_names and group.column("visible")[place.row].is_valid:
+            told = group.column("visible")[place.row].values.fill_null(False)
+            visible = visible & told.to_numpy(zero_copy_only=False)
+        return Skyline(np.where(np.isfinite(rows), rows, 0), visible)
+    except (DatasetError, IndexError, TypeError, ValueError) as error:
+        raise SkylineError(f"{photo}: its row of {place.file} cannot be read: {error}") from error
