@@ -40,3 +40,26 @@ def say(tmp_path, monkeypatch, capsys):
         return status, printed.out, printed.err
 
     return run
+
+
+@pytest.fixture
+def s3(monkeypatch):
+    """An S3 on this machine; its moods."""
+    import s3fs  # noqa: PLC0415 - heavy, as moto is
+
+    from testing.programs.s3 import s3 as started  # noqa: PLC0415
+
+    monkeypatch.setattr(s3fs.S3FileSystem, "retries", 1)  # ours are looked at
+    with started(monkeypatch) as moods:
+        yield moods
+
+
+@pytest.fixture
+def memory():
+    """A storage in memory, which is empty before and after."""
+    import fsspec  # noqa: PLC0415 - few tests need it
+
+    files = fsspec.filesystem("memory")
+    yield files
+    files.store.clear()
+    files.pseudo_dirs[:] = [""]

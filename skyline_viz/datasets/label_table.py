@@ -32,7 +32,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from skyline_viz.datasets.dataset import Dataset, DatasetError
-from skyline_viz.datasets.parquet_files import files_of, parquet
+from skyline_viz.datasets.parquet_files import files_of, parquet, version_of
 from skyline_viz.datasets.table_item import RowPlace, TableItem, row_group
 from skyline_viz.storage.addresses import is_address, needed
 from skyline_viz.storage.stored_photo import StoredPhoto
@@ -59,7 +59,7 @@ def open_label_table(where: str) -> Dataset:
     found: dict[str, tuple[RowPlace | None, dict[str, Any]]] = {}
     twice: dict[str, None] = {}
     for place, labelled, about in _rows(where, problems):
-        photo = _named(where, place.photo)
+        photo = place_of_photo(where, place.photo)
         if photo in found:
             twice[photo] = None
         else:
@@ -77,7 +77,7 @@ def open_label_table(where: str) -> Dataset:
             sha256=about.get("sha256") or "",
             place=place,
         )
-        for name, (photo, (place, about)) in zip(_names([*found]), found.items(), strict=True)
+        for name, (photo, (place, about)) in zip(names_of([*found]), found.items(), strict=True)
     ]
     return Dataset(PurePosixPath(where).stem, "table", tuple(items), tuple(problems))
 
@@ -87,6 +87,7 @@ def _rows(where: str, problems: list[str]) -> Iterator[tuple[RowPlace, bool, dic
     detected: list[str] = []
     for file in files_of(where):
         with parquet(file) as table:
+            version = version_of(file)
             columns = _columns(table, file)
             if _DETECTED in (table.schema_arrow.metadata or {}):
                 detected.append(PurePosixPath(file).name)
@@ -96,29 +97,29 @@ def _rows(where: str, problems: list[str]) -> Iterator[tuple[RowPlace, bool, dic
                 told = part.select([one for one in columns if one not in ("rows", "visible")])
                 for row, about in enumerate(told.to_pylist()):
                     if photo := about.pop("photo"):
-                        yield RowPlace(file, group, row, photo), labelled[row], about
+                        yield RowPlace(file, version, group, row, photo), labelled[row], about
                     else:
                         problems.append(f"row {row + 1} of group {group + 1} names no photo.")
     if detected:
         problems.append(f"lines that a detector found are taken for truths: {listed(detected)}.")
 
 
-def _names(photos: Sequence[str]) -> list[str]:
+def names_of(photos: Sequence[str]) -> list[str]:
     """A name for each photo: what tells it from the others."""
     plain = [StoredPhoto(photo).stem for photo in photos]
     if max(Counter(plain).values()) == 1:
         return plain
-    homes = [posixpath.dirname(photo.replace("\\", "/")) for photo in photos]
-    first, last = min(homes) + "/", max(homes) + "/"  # what these share is shared by all between
+    homes = [photo[: photo.rfind("/") + 1] for photo in photos]
+    first, last = min(homes), max(homes)  # what these share is shared by all between
     same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(first, last)))  # noqa: B905
     below = first.rfind("/", 0, same) + 1
-    names = [f"{home}/"[below:] + stem for home, stem in zip(homes, plain, strict=True)]
+    names = [home[below:] + stem for home, stem in zip(homes, plain, strict=True)]
     if max(Counter(names).values()) == 1:
         return names
     return [photo[below:] for photo in photos]
 
 
-def _named(where: str, photo: str) -> str:
+def place_of_photo(where: str, photo: str) -> str:
     """Path or address of a photo that a table names."""
     if is_address(photo) or Path(photo).is_absolute():
         return photo

@@ -70,3 +70,23 @@ def parquet(file: str) -> Iterator[Any]:
     except OSError as error:
         reason = (error.strerror or str(error)).lower()
         raise DatasetError(f"{file} cannot be read: {reason}.") from error
+
+
+def version_of(file: str) -> str:
+    """What tells a file from an earlier or later one of the same name.
+
+    Raises:
+        DatasetError: It cannot be read.
+        StorageError: Its address leads nowhere.
+    """
+    if is_address(file):
+        found, path = file_system(file)
+        with naming(file):
+            found.invalidate_cache()
+            return str(found.checksum(path))
+    try:
+        about = Path(file).stat()
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise DatasetError(f"{file} cannot be read: {reason}.") from error
+    return f"{about.st_mtime_ns} {about.st_size} {about.st_ino}"

@@ -12,7 +12,7 @@ import numpy as np
 
 from skyline_viz.arrays import U8
 from skyline_viz.datasets.dataset import DatasetError
-from skyline_viz.datasets.parquet_files import parquet
+from skyline_viz.datasets.parquet_files import parquet, version_of
 from skyline_viz.datasets.stored_item import StoredItem
 from skyline_viz.photo import PhotoError
 from skyline_viz.skyline import Skyline, SkylineError
@@ -24,6 +24,9 @@ class RowPlace:
 
     file: str
     """Path or address of the table's file."""
+
+    version: str
+    """What tells the file from an earlier or later one, see `version_of`."""
 
     group: int
     """Number of its row group."""
@@ -111,10 +114,17 @@ class TableItem(StoredItem):
 
 
 @lru_cache(maxsize=2)
-def row_group(file: str, number: int) -> Any:  # noqa: ANN401
-    """The lines of a row group."""
+def row_group(file: str, version: str, number: int) -> Any:  # noqa: ANN401
+    """The lines of a row group.
+
+    Raises:
+        DatasetError: The file cannot be read, or has changed.
+        StorageError: It cannot be downloaded.
+    """
     with parquet(file) as table:
-        names = [one for one in ("photo", "rows", "visible") if one in table.schema_arrow.names]
+        if version_of(file) != version:
+            raise DatasetError("it has changed since the table was opened.")
+        names = [one for one in ("rows", "visible") if one in table.schema_arrow.names]
         return table.read_row_group(number, columns=names)
 
 
@@ -125,13 +135,13 @@ def _line(place: RowPlace, photo: str) -> Skyline:
         SkylineError: It is damaged, or the table has changed.
     """
     try:
-        group = row_group(place.file, place.group)
-        if group.column("photo")[place.row].as_py() != place.photo:
-            raise SkylineError("the table has changed since it was opened.")
+        group = row_group(place.file, place.version, place.group)
         rows = group.column("rows")[place.row].values.to_numpy(zero_copy_only=False)
         visible = np.isfinite(rows)
         if "visible" in group.column_names and group.column("visible")[place.row].is_valid:
             told = group.column("visible")[place.row].values.fill_null(False)
+            if len(told) != len(rows):
+                raise SkylineError(f"it has {len(rows)} rows, and visible {len(told)} values.")
             visible = visible & told.to_numpy(zero_copy_only=False)
         return Skyline(np.where(np.isfinite(rows), rows, 0), visible)
     except (DatasetError, IndexError, TypeError, ValueError) as error:
