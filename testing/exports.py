@@ -64,6 +64,7 @@ FILE = {
     "coco": "annotations-rle.json",
     "labelme": "a.json",
     "cvat": "annotations.xml",
+    "parquet": "labels.parquet",
 }
 
 

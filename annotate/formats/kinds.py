@@ -65,9 +65,13 @@ def kind_of_xml(tag: str) -> str:
 
 def shown(kind: str) -> str:
     """A kind in words."""
-    return {"coco": "COCO", "labelme": "LabelMe", "json": "labels.json", "csv": "a skyline"}.get(
-        kind, kind
-    )
+    return {
+        "coco": "COCO",
+        "labelme": "LabelMe",
+        "json": "labels.json",
+        "csv": "a skyline",
+        "parquet": "a table of labels",
+    }.get(kind, kind)
 
 
 def _other_kind(document: dict[str, Any]) -> str:

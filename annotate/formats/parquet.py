@@ -1,7 +1,7 @@
 """Labels as one Parquet table, a row a photo: a data set of its own, see `datasets.label_table`.
 
-``labels.parquet`` has the columns of that table, and ``tags``. Photos are named by their whole
-paths.
+``labels.parquet`` has the columns of that table, the ``name`` of each photo below the folder, and
+``tags``. In ``photo`` are whole paths.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from annotate.formats.common import Entry, Imported, check_size
 from annotate.formats.importing import Task
 from annotate.store.identity import file_digest
 from skyline_viz.datasets.dataset import DatasetError
-from skyline_viz.datasets.label_table import open_label_table
+from skyline_viz.datasets.label_table import open_label_table, place_of_photo
 from skyline_viz.datasets.outlines import FormatError
 from skyline_viz.datasets.parquet_files import SUFFIX
 from skyline_viz.datasets.table_item import TableItem
@@ -35,6 +35,7 @@ def write_parquet(entries: list[Entry], folder: Path) -> None:
     schema = arrow.schema(
         {
             "photo": arrow.string(),
+            "name": arrow.string(),
             "sha256": arrow.string(),
             "height": arrow.int32(),
             "width": arrow.int32(),
@@ -62,13 +63,17 @@ def read_parquet(task: Task) -> None:
             dataset = open_label_table(str(file))
         except (DatasetError, StorageError) as error:
             raise FormatError(str(error)) from error
-        items = {item.where: item for item in dataset if isinstance(item, TableItem)}
-        tags = _tags(file)
+        names, tags = _column(file, "name"), _column(file, "tags")
+        items = {
+            names.get(item.where) or item.where: item
+            for item in dataset
+            if isinstance(item, TableItem)
+        }
         matched = task.names.of_references(items)
         for sentence in matched.unclear:
             task.found.problem(sentence)
-        for where, photo in matched.photos.items():
-            item = items[where]
+        for name, photo in matched.photos.items():
+            item = items[name]
             try:
                 line = item.truth()
                 if line is not None:
@@ -80,15 +85,16 @@ def read_parquet(task: Task) -> None:
             if line is None:
                 task.found.note(f"without a line in {file.name}", photo)
             else:
-                given = item.place.photo if item.place else ""
-                task.found.labels.append(Imported(photo, line, tags.get(given, ())))
-        for where in matched.unknown:
-            task.found.note("belong to no photo of the folder", where)
+                said = tuple(tags.get(item.where) or ())
+                task.found.labels.append(Imported(photo, line, said))
+        for name in matched.unknown:
+            task.found.note("belong to no photo of the folder", name)
 
 
 def _row(entry: Entry) -> dict[str, Any]:
     return {
         "photo": str(entry.photo.resolve()),
+        "name": entry.label.name,
         "sha256": file_digest(entry.photo),
         "height": entry.label.height,
         "width": entry.label.width,
@@ -98,13 +104,13 @@ def _row(entry: Entry) -> dict[str, Any]:
     }
 
 
-def _tags(file: Path) -> dict[str, tuple[str, ...]]:
-    """What was said of each photo that a table names; nothing where it has no such column."""
+def _column(file: Path, column: str) -> dict[str, Any]:
+    """What a column says of each photo of a table; nothing where there is no such column."""
     parquet = _arrow("pyarrow.parquet")
-    if "tags" not in parquet.read_schema(file).names:
+    if column not in parquet.read_schema(file).names:
         return {}
-    rows = parquet.read_table(file, columns=["photo", "tags"]).to_pylist()
-    return {row["photo"]: tuple(row["tags"] or ()) for row in rows}
+    rows = parquet.read_table(file, columns=["photo", column]).to_pylist()
+    return {place_of_photo(str(file), row["photo"]): row[column] for row in rows if row["photo"]}
 
 
 def _arrow(module: str) -> Any:  # noqa: ANN401 - has no types

@@ -18,6 +18,7 @@ EXTRA = "cluster"
 """The extra that brings the libraries."""
 
 _SCHEME = re.compile(r"([a-z][a-z0-9+.-]+)(://|::)", re.ASCII)
+_S3 = {"s3": {"max_concurrency": 1}}  # else it asks how large a file is before it downloads it
 _OURS = ("aiohttp", "gcsfs", "s3fs")
 
 
@@ -65,7 +66,7 @@ def file_system(address: str) -> tuple[Any, str]:
     """
     fsspec = needed("fsspec.core", scheme(address))
     try:
-        found, path = fsspec.url_to_fs(address)
+        found, path = fsspec.url_to_fs(address, **(_S3 if "s3://" in address else {}))
     except ImportError as error:
         raise StorageError(f"{address} needs {_installed(error)}") from error
     except ValueError as error:

@@ -68,6 +68,7 @@ def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapp
     Raises:
         StorageError: It is missing, or cannot be listed.
     """
+    found.invalidate_cache()  # an earlier listing may be of other files
     folders = [path]
     while folders:
         place = folders.pop()

@@ -22,9 +22,12 @@ class Moods:
         """Downloads from now on of which the second half does not come."""
         self.downloads = []
         """Keys that were downloaded, or tried."""
+        self.requests = 0
+        """Requests of all kinds."""
 
     def __call__(self, environ, start_response):
         path = environ["PATH_INFO"]
+        self.requests += 1
         download = environ["REQUEST_METHOD"] == "GET" and path.count("/") > 1 and path[-1] != "/"
         if not download:
             return self.application(environ, start_response)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from testing.datasets import HEIGHT, MASK, PHOTO, SKYLINE, WIDTH, ch1, put, web
+from testing.datasets import HEIGHT, MASK, PHOTO, ROWS, SKYLINE, WIDTH, ch1, put, web
+from testing.tables import row_of, write_labels
 
 
 def plain(root, *names):
@@ -106,3 +107,24 @@ def test_a_folder_without_a_line_is_refused(tmp_path):
     SKYLINE.write_csv(tmp_path / "lines" / "zebra.csv")
     with pytest.raises(sv.DatasetError, match=r"such as zebra\.csv, are called otherwise"):
         sv.open_predictions(tmp_path / "lines", items)
+
+
+def test_lines_of_a_table_count(tmp_path):
+    items = plain(tmp_path / "set", "a", "b", "c", "d")
+    other = sv.Skyline(ROWS + 1)
+    rows = [
+        row_of("s3://alps/a.jpg", SKYLINE, height=HEIGHT, width=WIDTH),
+        row_of("b.png", other, height=HEIGHT + 1, width=WIDTH),
+        row_of("c.png", None, height=HEIGHT, width=WIDTH),
+        row_of("zebra.png", other, height=HEIGHT, width=WIDTH),
+    ]
+    for lines in (tmp_path / "lines", tmp_path / "lines.parquet"):
+        write_labels(lines / "t.parquet", rows)
+        found = sv.open_predictions(lines, items)
+        assert {*found.lines} == {"a", "b"}
+        assert found.line(items.items[0]) == SKYLINE
+        with pytest.raises(sv.SkylineError, match="its line is for 24x17 pixels"):
+            found.line(items.items[1])
+        file = "lines.parquet" if lines.suffix else "t.parquet"
+        assert found.notes == (f"without a line in {file}: c.",)
+        assert [one.partition(" in ")[0] for one in found.extra] == ["zebra"]

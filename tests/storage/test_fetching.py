@@ -17,8 +17,12 @@ def stored(s3):
 
 
 def test_a_download_is_one_request(stored, pauses):
-    assert fetch(ADDRESS, len(DATA)) == DATA
-    assert (stored.downloads, pauses) == (["a/x.jpg"], [])
+    fsspec.filesystem("s3").invalidate_cache()  # a worker has listed nothing
+    for number, size in enumerate([len(DATA), None], 1):
+        before = stored.requests
+        assert fetch(ADDRESS, size) == DATA
+        assert (stored.downloads, pauses) == (number * ["a/x.jpg"], [])
+        assert stored.requests == before + 1
 
 
 def test_a_storage_that_throttles_is_asked_again_after_longer_and_longer_pauses(stored, pauses):

@@ -21,7 +21,7 @@ def folder(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "kind", ["mask", "painted", "ch1", "csv", "json", "coco", "labelme", "cvat"]
+    "kind", ["mask", "painted", "ch1", "csv", "json", "coco", "labelme", "cvat", "parquet"]
 )
 def test_labels_leave_and_come_back(folder, kind, tmp_path, capsys):
     label(folder)

@@ -17,8 +17,8 @@ from annotate.store.labels import TAGS, Label
 from testing.examples import examples
 from testing.exports import FILE, HEIGHT, WIDTH, label, put, refused, there_and_back, without_line
 
-KEEP_VISIBLE = ("painted", "csv", "json", "labelme", "cvat")
-KEEP_TAGS = ("json", "labelme", "cvat")
+KEEP_VISIBLE = ("painted", "csv", "json", "labelme", "cvat", "parquet")
+KEEP_TAGS = ("json", "labelme", "cvat", "parquet")
 EVERY = pytest.mark.parametrize("kind", list(FORMATS))
 FEW = examples(25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 

@@ -65,6 +65,7 @@ def test_kinds_in_words():
         "COCO",
         "LabelMe",
         "labels.json",
+        "a table of labels",
         "a skyline",
         "cvat",
         "mask",

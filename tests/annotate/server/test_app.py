@@ -170,7 +170,7 @@ def test_hostile_names_are_shown_as_text(tmp_path):
             done(client, photo["id"], {"kind": "status", "status": "accepted"})
             thumbnail = client.get(f"/api/photos/{photo['id']}/thumbnail")
             assert thumbnail.headers["content-type"] == "image/jpeg"
-        for kind in ("csv", "labelme", "cvat", "coco", "json", "ch1", "painted"):
+        for kind in ("csv", "labelme", "cvat", "coco", "json", "ch1", "painted", "parquet"):
             with zipfile.ZipFile(io.BytesIO(client.get(f"/api/exports/{kind}").content)) as archive:
                 for name in archive.namelist():
                     assert not name.startswith("/")
