@@ -14,7 +14,9 @@ the figures of docs/scale.md:
 
 from __future__ import annotations
 
+import gc
 import os
+import pickle
 import resource
 import signal
 import subprocess
@@ -28,11 +30,14 @@ from pathlib import Path
 from time import perf_counter, process_time, sleep
 
 import cv2
+import numpy as np
 import psutil
+import pyarrow as pa
 import pyarrow.parquet as pq
 
 from skyline_viz.arrays import U8
 from skyline_viz.config import TrainingConfig
+from skyline_viz.datasets.layouts import open_dataset
 from skyline_viz.detector import Detector
 from skyline_viz.photo import write_photo
 from skyline_viz.rendering import render
@@ -102,6 +107,7 @@ def measured(
         done = kept() if kill else 0
         if kill and done > kill[0] and not killed:
             killed = _kill_a_worker(watched)
+            print(f"a worker killed after {perf_counter() - began:.0f} s: {killed}", flush=True)
         if kill and done > kill[1]:
             process.kill()
         sleep(LOOK_EVERY)
@@ -198,6 +204,7 @@ def parts() -> None:
     ]
     print(f"the name of a photo: {tracemalloc.get_traced_memory()[0] / len(named):.0f} bytes")
     tracemalloc.stop()
+    _labels()
     cv2.setNumThreads(1)
     keep_freed()
     detector = Detector()
@@ -220,6 +227,33 @@ def parts() -> None:
                 find_line(detector, task)
                 each.append(process_time() - began)
             print(f"a photo of {size[0]} x {size[1]}: {1000 * min(each):.0f} ms of a processor")
+
+
+def _labels(photos: int = 100_000, columns: int = 1600) -> None:
+    """What a table of labels takes: to open it, in the client, and on the way to a worker."""
+    kinds = pa.schema({"photo": pa.string(), "rows": pa.list_(pa.float32())}.items())
+    steps = np.random.default_rng(0).integers(-1, 2, (1000, columns))
+    lines = pa.array([*(300 + steps.cumsum(1)).astype(np.float32)], kinds.field("rows").type)
+    with tempfile.TemporaryDirectory() as place:
+        table = Path(place, "labels.parquet")
+        with pq.ParquetWriter(table, kinds) as writer:
+            for first in range(0, photos, 1000):
+                names = [f"s3://photos/2026/11/26/webcam-{first + at:09}.jpg" for at in range(1000)]
+                writer.write_table(pa.table({"photo": names, "rows": lines}, kinds))
+        before = _memory()
+        began = process_time()
+        items = open_dataset(table).items
+        took, kept = process_time() - began, _memory() - before
+        sent = sum(len(pickle.dumps(item)) for item in items[:1000]) / 1000
+    print(
+        f"a table of {photos:,} labels of {columns} columns: {took:.1f} s to open, "
+        f"{kept / photos:.0f} bytes a photo in the client, {sent:.0f} bytes to a worker"
+    )
+
+
+def _memory() -> int:
+    gc.collect()
+    return int(psutil.Process().memory_info().rss)
 
 
 def _scene(number: int) -> tuple[U8, Skyline]:

@@ -30,7 +30,8 @@ class OnTruth:
     """Options of a command that tests methods on photos with truth."""
 
     dataset: Annotated[str, tyro.conf.Positional, tyro.conf.arg(metavar="DATASET")]
-    """Folder or address of a data set with truths, in a published layout or plain."""
+    """Folder or address of a data set with truths, in a published layout or plain; or a table of
+    labels, FILE.parquet."""
 
     folds: FoldOptions = field(default_factory=Folds)
     """Whether photos are cross-validated, and how they are dealt into folds."""

@@ -53,8 +53,8 @@ class Train:
         tyro.conf.Positional,
         tyro.conf.arg(metavar="DATASET"),
     ]
-    """Folders or addresses of data sets with truths, in a published layout or plain; each counts
-    alike, whatever the number of its photos."""
+    """Folders or addresses of data sets with truths, in a published layout or plain, or tables of
+    labels, FILE.parquet; each counts alike, whatever the number of its photos."""
 
     out: Annotated[Path, tyro.conf.arg(metavar="FILE")]
     """File for the detector, usually .npz; a file that is there is replaced."""
