@@ -15,22 +15,17 @@ the figures of docs/scale.md:
 from __future__ import annotations
 
 import os
-import resource
-import signal
-import subprocess
 import sys
 import tempfile
 import tracemalloc
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from time import perf_counter, process_time, sleep
+from time import process_time
 
 import cv2
-import psutil
 import pyarrow.parquet as pq
 
+from benchmarks.scale.measuring import KINDS, SIZE, Cost, measured
 from skyline_viz.arrays import U8
 from skyline_viz.config import TrainingConfig
 from skyline_viz.detector import Detector
@@ -44,22 +39,7 @@ from skyline_viz.storage.stored_photo import StoredPhoto
 from skyline_viz.system.memory import keep_freed
 from skyline_viz.training import gather
 
-KINDS = ("clear", "hazy", "cloudy", "snow", "foreground", "spires", "desert", "rover")
-SIZE = (480, 360)
-LOOK_EVERY = 0.2  # seconds
 A_ROW = 4500  # bytes that a run keeps of a photo of this size
-
-
-@dataclass(frozen=True)
-class Cost:
-    """What a run took."""
-
-    seconds: float
-    processor: float
-    memory: tuple[int, ...]
-    """Bytes of the first process, at each look."""
-
-    said: str
 
 
 def write_links(folder: Path, photos: int) -> Path:
@@ -76,54 +56,6 @@ def write_links(folder: Path, photos: int) -> Path:
 def command(folder: Path, out: Path, *more: str) -> list[str]:
     """The command line that is measured."""
     return [sys.executable, "-m", "skyline_viz", "detect", str(folder), "--out", str(out), *more]
-
-
-def measured(
-    words: list[str], kept: Callable[[], int] = int, kill: tuple[float, float] | None = None
-) -> Cost:
-    """Run a command to its end, or until it is killed.
-
-    Args:
-        words: The command.
-        kept: Tells how many bytes it has kept of what it has done.
-        kill: Bytes from which on a worker is killed, and from which on the first process is.
-    """
-    before, began = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter()
-    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
-    process = subprocess.Popen(
-        words, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    )
-    watched, memory, killed = psutil.Process(process.pid), [], False
-    while process.poll() is None:
-        try:
-            memory.append(watched.memory_info().rss)
-        except psutil.NoSuchProcess:
-            break
-        done = kept() if kill else 0
-        if kill and done > kill[0] and not killed:
-            killed = _kill_a_worker(watched)
-        if kill and done > kill[1]:
-            process.kill()
-        sleep(LOOK_EVERY)
-    said = process.communicate()[0]
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return Cost(perf_counter() - began, spent, tuple(memory), said)
-
-
-def _kill_a_worker(client: psutil.Process) -> bool:
-    """Kill the process that has worked most, but for the first one; whether there was one."""
-    workers = client.children(recursive=True)
-    if workers:
-        os.kill(max(workers, key=_worked).pid, signal.SIGKILL)
-    return bool(workers)
-
-
-def _worked(process: psutil.Process) -> float:
-    try:
-        return sum(process.cpu_times()[:2])
-    except psutil.NoSuchProcess:
-        return 0.0
 
 
 def lines(table: Path) -> dict[str, tuple[object, ...]]:
