@@ -47,7 +47,7 @@ NETWORK = "sky__network"
 
 TRAINED = "trained"
 """Name of the note of a file that says what the network was trained on, as JSON: ``photos`` holds
-the number of photos by data set."""
+the number of photos by data set, and ``of`` how many it has, where only a part of them was read."""
 
 SEEN = "seen"
 """Name of the note that holds fingerprints of these photos, see `system.fingerprints.packed`."""

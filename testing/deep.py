@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from skyline_viz.rendering import render
+from skyline_viz.sky_training.example_file import ExampleFile
+from skyline_viz.sky_training.examples import COLUMNS, ROWS, Example
 from skyline_viz.skyline import Skyline
 
 needs_deep = pytest.mark.skipif(
@@ -48,3 +50,31 @@ def scene(seed):
 
 def rendered(seeds):
     return [Rendered(scene(seed)) for seed in seeds]
+
+
+def sky_examples(count, source="hills"):
+    """Examples for sky models: bright sky over dark, rough terrain."""
+    rng = np.random.default_rng(0)
+    found = []
+    for number in range(count):
+        line = rng.uniform(80, 300) + 40 * np.sin(np.arange(COLUMNS) / rng.uniform(20, 60))
+        sky = np.arange(ROWS)[:, None] < line
+        rough = rng.integers(0, 90, (ROWS, COLUMNS, 3))
+        photo = np.where(sky[..., None], 200, rough).astype(np.uint8)
+        found.append(Example(photo, (sky * 255).astype(np.uint8), source, f"{number:080x}"))
+    return found
+
+
+def lineless(source="hills"):
+    """An example whose sky lies below terrain."""
+    sky = np.zeros((ROWS, COLUMNS), np.uint8)
+    sky[100:200] = 255
+    return Example(np.full((ROWS, COLUMNS, 3), 90, np.uint8), sky, source)
+
+
+def kept(examples):
+    """The same in a file, to be closed."""
+    file = ExampleFile(len(examples))
+    for one in examples:
+        file.append(one)
+    return file

@@ -71,7 +71,8 @@ class Train:
     """Sky network that says what is sky in photos without a truth, for --learn-sky."""
 
     steps: int = STEPS
-    """How many batches of 16 photos a sky model sees."""
+    """How many batches of 16 photos a sky model sees; of more photos than are in them so many are
+    chosen, and read."""
 
     pretrained: Annotated[Path | None, tyro.conf.arg(metavar="FILE.pth")] = None
     """Pretrained VGG-16 weights for the FCNs and SegNet, which then have its full width."""
@@ -92,8 +93,9 @@ class Train:
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
 
     cluster: ClusterAddress = None
-    """Gather on a cluster instead: tcp://HOST:PORT, the address of a dask scheduler, or local:N for
-    one of N processes on this machine. For our filters; the bank is the same to the bit."""
+    """Read photos on a cluster instead: tcp://HOST:PORT, the address of a dask scheduler, or
+    local:N for one of N processes on this machine. For our filters and sky models; the file is the
+    same to the bit."""
 
     shard: Annotated[str | None, tyro.conf.arg(metavar="I/N")] = None
     """Gather from this part of the photos only, such as 3/8; FILE is then a folder of parts, of
@@ -118,8 +120,8 @@ class Train:
             )
         if self.seed < 0:
             raise UsageError(f"a seed is 0 or more, not {self.seed}.")
-        if self.cluster is not None and (self.learn_sky is not None or self.workers):
-            raise UsageError("--cluster is for filters, and instead of --workers.")
+        if self.cluster is not None and self.workers:
+            raise UsageError("--cluster is instead of --workers; leave one of them out.")
         if self.learn_sky is not None:
             return self._train_sky(self.learn_sky)
         if self.teacher is not None or self.steps != STEPS:
@@ -167,19 +169,29 @@ class Train:
         if self.steps < 1:
             raise UsageError(f"a sky model sees 1 batch or more, not {self.steps}.")
         from skyline_viz.sky_model import SkyModel
+        from skyline_viz.sky_training.choosing import chosen
 
         teacher = SkyModel.load(self.teacher) if self.teacher else None
         sets, photos = self._sets(all_photos=teacher is not None)
         output_folder(self.out.parent, ())
-        workers = foresee([item for items in sets.values() for item in items], self.workers)
+        read = [one for items in chosen(sets, self.steps, self.seed).values() for one in items]
         model, failures = evaluation.learn_sky(
-            sets, size, teacher=teacher, steps=self.steps, seed=self.seed, workers=workers
+            sets,
+            size,
+            teacher=teacher,
+            steps=self.steps,
+            seed=self.seed,
+            workers=foresee(read, self.workers) if self.cluster is None else 1,
+            reading=on_cluster(self.cluster),
         )
         with replacing(self.out) as temporary:
             temporary.write_bytes(model.network)
         used = sum(model.photos_learned.values())
         tell(f"photos used  {used} of {photos}")
-        if nothing := sum(map(len, sets.values())) - len(failures) - used:
+        if unread := sum(map(len, sets.values())) - len(read):
+            steps = counted(self.steps, "step")
+            tell(f"not read     {counted(unread, 'photo')}: {steps} see {len(read):,} at the most")
+        if nothing := len(read) - len(failures) - used:
             tell(f"left out     {counted(nothing, 'photo')} whose truth shows no line")
         tell_done(f"written      {self.out}, {self.out.stat().st_size:,} bytes")
         return status_after(failures)
@@ -242,7 +254,7 @@ class Train:
         if self.training != TrainingConfig():
             raise UsageError(f"--preset and --training are for our filter bank, not {self.method}.")
         if self.cluster is not None:
-            raise UsageError(f"--cluster is for our filter bank, not {self.method}.")
+            raise UsageError(f"--cluster is for our filters and sky models, not {self.method}.")
         items = [item for one in sets.values() for item in one]
         dataset = ", ".join(sets)
         foresee(items)

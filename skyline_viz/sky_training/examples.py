@@ -58,6 +58,13 @@ class Example:
         sky = squeezed((share * 255).astype(np.uint8))
         return cls(squeezed(photo), sky, source, fingerprint(photo, name))
 
+    @classmethod
+    def with_line(cls, line: F32 | None, photo: U8, sky: U8, source: str, seen: str) -> Example:
+        """An example of which the line is known already, and need not be told from its sky."""
+        one = cls(photo, sky, source, seen)
+        vars(one)["line"] = line
+        return one
+
     @cached_property
     def line(self) -> F32 | None:
         """``(COLUMNS,)`` row of its skyline; None where its sky is not all that lies above one."""
@@ -83,8 +90,13 @@ def example_of(item: Item, source: str, teacher: SkyModel | None = None) -> Exam
     if truth is not None:
         if not truth.visible.any():
             return None
-        return Example.of(item.photo(), truth, source, item.name)
-    return taught(item.photo(), teacher, source, item.name) if teacher is not None else None
+        one = Example.of(item.photo(), truth, source, item.name)
+    elif teacher is not None:
+        one = taught(item.photo(), teacher, source, item.name)
+    else:
+        return None
+    _ = one.line  # told here, in whatever process this is, and goes along
+    return one
 
 
 def taught(photo: U8, teacher: SkyModel, source: str, name: str = "") -> Example:

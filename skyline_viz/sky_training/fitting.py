@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import torch
 from torch.nn import functional
 
 from skyline_viz.arrays import F64
-from skyline_viz.sky_training.examples import Example
+from skyline_viz.sky_training.choosing import WHOLE, Part
+from skyline_viz.sky_training.example_file import Examples
 from skyline_viz.sky_training.layers import flat, layered, whole
 from skyline_viz.sky_training.network import SkyNet
-from skyline_viz.sky_training.sizes import Size
+from skyline_viz.sky_training.sizes import BATCH, Size
 from skyline_viz.sky_training.variation import varied
-
-BATCH = 16
-"""Photos a step."""
 
 RATE = 5e-3
 """Highest learning rate."""
@@ -36,9 +34,11 @@ Progress = Callable[[int, float], None]
 
 
 def fit(
-    examples: Sequence[Example],
+    examples: Examples,
+    sources: Sequence[str],
     size: Size,
     *,
+    parts: Mapping[str, Part] | None = None,
     steps: int,
     seed: int = 0,
     progress: Progress = lambda *_: None,
@@ -46,11 +46,13 @@ def fit(
     """A network that has learned from examples.
 
     Data sets are drawn by the square root of their number of photos: a large one counts for more,
-    but not for all.
+    but not for all. No example is looked at before it is drawn.
 
     Args:
         examples: At least one.
+        sources: Data set that each of them is from.
         size: Its size.
+        parts: How much of each data set was read; all of it unless given.
         steps: How many batches it sees.
         seed: The same seed and examples give the same network, on the same machine.
         progress: What is told of each step.
@@ -61,10 +63,11 @@ def fit(
     average: SkyNet = copy.deepcopy(net)
     optimiser = torch.optim.AdamW(net.parameters(), lr=RATE, weight_decay=1e-2)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, RATE, total_steps=steps)
-    share = shares(examples)
+    upto = shares(sources, parts or {}).cumsum()
+    upto /= upto[-1]
     net.train()
     for step in range(1, steps + 1):
-        photos, skies = batch(examples, share, size, rng)
+        photos, skies = batch(examples, upto, size, rng)
         loss = judged(net(photos), skies)
         optimiser.zero_grad()
         loss.backward()
@@ -77,23 +80,49 @@ def fit(
     return average
 
 
-def shares(examples: Sequence[Example]) -> F64:
-    """How often each example is drawn, ``(n,)``, in sum 1."""
-    sources = np.array([one.source for one in examples])
-    _, index, counts = np.unique(sources, return_inverse=True, return_counts=True)
-    share = 1 / np.sqrt(counts[index])
+def shares(sources: Sequence[str], parts: Mapping[str, Part]) -> F64:
+    """How often each example is drawn, ``(n,)``, in sum 1.
+
+    Args:
+        sources: Data set that each of them is from.
+        parts: How much of each data set was read, where that is not all of it.
+    """
+    names, index, counts = np.unique(np.array(sources), return_inverse=True, return_counts=True)
+    weights = np.array([parts.get(name, WHOLE).weight for name in names])
+    share = (np.sqrt(weights) / np.sqrt(counts))[index]
     return np.asarray(share / share.sum())
 
 
+def drawn(upto: F64, count: int, rng: np.random.Generator) -> list[int]:
+    """Places of examples, with replacement: those that `Generator.choice` gives.
+
+    That adds the shares up anew each time, which takes 0.7 ms for 100,000 of them.
+
+    Args:
+        upto: ``(n,)`` the share of each example and of those before it together.
+        count: How many.
+        rng: What is drawn.
+    """
+    places: list[int] = upto.searchsorted(rng.random(count), side="right").tolist()
+    return places
+
+
 def batch(
-    examples: Sequence[Example], share: F64, size: Size, rng: np.random.Generator
+    examples: Examples, upto: F64, size: Size, rng: np.random.Generator
 ) -> tuple[torch.Tensor, torch.Tensor]:
-    """Photos ``(N, 3, rows, columns)`` and their sky ``(N, 1, rows / 2, columns / 2)``."""
+    """Photos ``(N, 3, rows, columns)`` and their sky ``(N, 1, rows / 2, columns / 2)``.
+
+    Args:
+        examples: What to draw from.
+        upto: How often, see `drawn`.
+        size: That of the network.
+        rng: What is drawn.
+    """
     photos, skies = [], []
-    for index in rng.choice(len(examples), BATCH, p=share):
+    for index in drawn(upto, BATCH, rng):
         one = examples[index]
         if one.line is not None and rng.random() < NEW:
-            others = [examples[other] for other in rng.choice(len(examples), 6, p=share)]
+            others = [examples[other] for other in drawn(upto, 6, rng)]
             layers = layered(one, others, rng)
             if rng.random() < FLAT:
                 layers = flat(layers[1], rng)

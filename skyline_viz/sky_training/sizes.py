@@ -32,5 +32,8 @@ SIZES: dict[SizeName, Size] = {
 }
 """By name."""
 
+BATCH = 16
+"""Photos a step."""
+
 STEPS = 6000
 """Batches that a model sees unless told otherwise."""

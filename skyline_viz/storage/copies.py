@@ -67,12 +67,7 @@ def _bring_up_to_date(target: Path, files: dict[str, Listed], address: str) -> N
         if not one.stamp or known.get(own) != one.stamp or not (target / own).is_file()
     ]
     make_folder(target)
-    size, free = sum(one.size or 0 for _, one in news), shutil.disk_usage(target).free
-    if size > _MOST_OF_DISK * free:
-        raise StorageError(
-            f"{address} needs {size / 1e9:.1f} GB in {caches()}, where {free / 1e9:.1f} GB are "
-            f"free; {CACHE} names another folder."
-        )
+    check_room(sum(one.size or 0 for _, one in news), address)
     _write_state(target, {own: one for own, one in known.items() if own in files})
     with ThreadPoolExecutor(_THREADS) as threads:
         for _ in threads.map(_write, *zip(*news, strict=True)) if news else ():
@@ -101,6 +96,26 @@ def caches() -> Path:
         return Path(named)
     usual = "LOCALAPPDATA" if sys.platform == "win32" else "XDG_CACHE_HOME"
     return Path(os.environ.get(usual) or Path.home() / ".cache", "skyline-viz")
+
+
+def check_room(size: int, what: str) -> None:
+    """Make sure that the folder of caches, which is made where it is missing, has room.
+
+    Args:
+        size: Bytes that are to be written.
+        what: What they are, for the sentence.
+
+    Raises:
+        StorageError: The disk would not hold them.
+        OSError: The folder cannot be made.
+    """
+    make_folder(caches())
+    free = shutil.disk_usage(caches()).free
+    if size > _MOST_OF_DISK * free:
+        raise StorageError(
+            f"{what} needs {size / 1e9:.1f} GB in {caches()}, where {free / 1e9:.1f} GB are "
+            f"free; {CACHE} names another folder."
+        )
 
 
 def _read_state(target: Path) -> dict[str, str]:

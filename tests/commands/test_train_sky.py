@@ -54,6 +54,24 @@ def test_training_goes_on_past_a_bad_photo(say, tmp_path):
     assert "p0.png" in err
 
 
+@needs_deep
+def test_a_cluster_reads_the_photos_and_the_model_is_the_same(say, hills, tmp_path):
+    assert say("train", hills, *SHORT)[0] == 0
+    status, out, err = say("train", hills, *SHORT[:-1], "there.onnx", "--cluster", "local:1")
+    assert (status, err.count("\n")) == (0, 1)  # which tells where it is watched
+    assert "4 of 4" in out
+    assert (tmp_path / "there.onnx").read_bytes() == (tmp_path / "sky.onnx").read_bytes()
+
+
+@needs_deep
+def test_photos_that_cannot_all_be_drawn_are_counted(say, hills, monkeypatch):
+    monkeypatch.setattr("skyline_viz.sky_training.choosing.BATCH", 1)
+    status, out, _ = say("train", hills, *SHORT)
+    assert status == 0
+    assert "photos used  2 of 4" in out
+    assert "not read     2 photos: 2 steps see 2 at the most" in out
+
+
 @pytest.mark.parametrize(
     ("options", "why"),
     [

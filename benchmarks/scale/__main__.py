@@ -14,30 +14,21 @@ the figures of docs/scale.md:
 
 from __future__ import annotations
 
-import gc
 import os
-import pickle
-import resource
-import signal
-import subprocess
 import sys
 import tempfile
 import tracemalloc
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
-from time import perf_counter, process_time, sleep
+from time import process_time
 
 import cv2
-import numpy as np
-import psutil
-import pyarrow as pa
 import pyarrow.parquet as pq
 
+from benchmarks.scale import labels
+from benchmarks.scale.measuring import KINDS, SIZE, Cost, measured
 from skyline_viz.arrays import U8
 from skyline_viz.config import TrainingConfig
-from skyline_viz.datasets.layouts import open_dataset
 from skyline_viz.detector import Detector
 from skyline_viz.photo import write_photo
 from skyline_viz.rendering import render
@@ -49,22 +40,7 @@ from skyline_viz.storage.stored_photo import StoredPhoto
 from skyline_viz.system.memory import keep_freed
 from skyline_viz.training import gather
 
-KINDS = ("clear", "hazy", "cloudy", "snow", "foreground", "spires", "desert", "rover")
-SIZE = (480, 360)
-LOOK_EVERY = 0.2  # seconds
 A_ROW = 4500  # bytes that a run keeps of a photo of this size
-
-
-@dataclass(frozen=True)
-class Cost:
-    """What a run took."""
-
-    seconds: float
-    processor: float
-    memory: tuple[int, ...]
-    """Bytes of the first process, at each look."""
-
-    said: str
 
 
 def write_links(folder: Path, photos: int) -> Path:
@@ -81,55 +57,6 @@ def write_links(folder: Path, photos: int) -> Path:
 def command(folder: Path, out: Path, *more: str) -> list[str]:
     """The command line that is measured."""
     return [sys.executable, "-m", "skyline_viz", "detect", str(folder), "--out", str(out), *more]
-
-
-def measured(
-    words: list[str], kept: Callable[[], int] = int, kill: tuple[float, float] | None = None
-) -> Cost:
-    """Run a command to its end, or until it is killed.
-
-    Args:
-        words: The command.
-        kept: Tells how many bytes it has kept of what it has done.
-        kill: Bytes from which on a worker is killed, and from which on the first process is.
-    """
-    before, began = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter()
-    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
-    process = subprocess.Popen(
-        words, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-    )
-    watched, memory, killed = psutil.Process(process.pid), [], False
-    while process.poll() is None:
-        try:
-            memory.append(watched.memory_info().rss)
-        except psutil.NoSuchProcess:
-            break
-        done = kept() if kill else 0
-        if kill and done > kill[0] and not killed:
-            killed = _kill_a_worker(watched)
-            print(f"a worker killed after {perf_counter() - began:.0f} s: {killed}", flush=True)
-        if kill and done > kill[1]:
-            process.kill()
-        sleep(LOOK_EVERY)
-    said = process.communicate()[0]
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return Cost(perf_counter() - began, spent, tuple(memory), said)
-
-
-def _kill_a_worker(client: psutil.Process) -> bool:
-    """Kill the process that has worked most, but for the first one; whether there was one."""
-    workers = client.children(recursive=True)
-    if workers:
-        os.kill(max(workers, key=_worked).pid, signal.SIGKILL)
-    return bool(workers)
-
-
-def _worked(process: psutil.Process) -> float:
-    try:
-        return sum(process.cpu_times()[:2])
-    except psutil.NoSuchProcess:
-        return 0.0
 
 
 def lines(table: Path) -> dict[str, tuple[object, ...]]:
@@ -204,7 +131,7 @@ def parts() -> None:
     ]
     print(f"the name of a photo: {tracemalloc.get_traced_memory()[0] / len(named):.0f} bytes")
     tracemalloc.stop()
-    _labels()
+    labels.main()
     cv2.setNumThreads(1)
     keep_freed()
     detector = Detector()
@@ -227,33 +154,6 @@ def parts() -> None:
                 find_line(detector, task)
                 each.append(process_time() - began)
             print(f"a photo of {size[0]} x {size[1]}: {1000 * min(each):.0f} ms of a processor")
-
-
-def _labels(photos: int = 100_000, columns: int = 1600) -> None:
-    """What a table of labels takes: to open it, in the client, and on the way to a worker."""
-    kinds = pa.schema({"photo": pa.string(), "rows": pa.list_(pa.float32())}.items())
-    steps = np.random.default_rng(0).integers(-1, 2, (1000, columns))
-    lines = pa.array([*(300 + steps.cumsum(1)).astype(np.float32)], kinds.field("rows").type)
-    with tempfile.TemporaryDirectory() as place:
-        table = Path(place, "labels.parquet")
-        with pq.ParquetWriter(table, kinds) as writer:
-            for first in range(0, photos, 1000):
-                names = [f"s3://photos/2026/11/26/webcam-{first + at:09}.jpg" for at in range(1000)]
-                writer.write_table(pa.table({"photo": names, "rows": lines}, kinds))
-        before = _memory()
-        began = process_time()
-        items = open_dataset(table).items
-        took, kept = process_time() - began, _memory() - before
-        sent = sum(len(pickle.dumps(item)) for item in items[:1000]) / 1000
-    print(
-        f"a table of {photos:,} labels of {columns} columns: {took:.1f} s to open, "
-        f"{kept / photos:.0f} bytes a photo in the client, {sent:.0f} bytes to a worker"
-    )
-
-
-def _memory() -> int:
-    gc.collect()
-    return int(psutil.Process().memory_info().rss)
 
 
 def _scene(number: int) -> tuple[U8, Skyline]:
