@@ -13,6 +13,7 @@ import itertools
 import platform
 import re
 import secrets
+import socket
 import tempfile
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
@@ -43,6 +44,10 @@ _MOST_A_TASK = 8  # photos: a task costs the scheduler and its client some milli
 _COUNT_EVERY = 10.0  # seconds between two looks at how many threads there are
 _FIRST_WORKER = 600.0  # seconds to wait for one
 _PATIENCE = "10s"  # of connecting
+_ASKED, _REACHING = (
+    3,
+    2.0,
+)  # workers that are connected to, to see whether one can; seconds for each
 
 _SETTINGS = {
     "distributed.worker.profile.enabled": False,  # of photos it says nothing, and takes time
@@ -226,7 +231,19 @@ def cluster_at(where: str) -> Iterator[Cluster]:
         except TimeoutError as error:
             raise ClusterError(f"the cluster at {where} has no worker.") from error
         _check(client.run(versions, on_error="return"))
+        client.direct_to_workers = reaches([*client.scheduler_info(-1)["workers"]])
         yield Cluster(client)
+
+
+def reaches(workers: Sequence[str]) -> bool:
+    """Whether this machine reaches workers, so that what they find need not pass the scheduler."""
+    for worker in workers[:_ASKED]:
+        host, _, port = worker.rpartition("://")[2].rpartition(":")
+        try:
+            socket.create_connection((host.strip("[]"), int(port)), _REACHING).close()
+        except (OSError, ValueError):
+            return False
+    return True
 
 
 @contextlib.contextmanager

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import socket
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -67,6 +68,17 @@ def test_it_is_watched_from_this_machine_alone(two):
         for connection in one.net_connections("inet"):
             if connection.status == psutil.CONN_LISTEN:
                 assert connection.laddr.ip in ("127.0.0.1", "::1")
+
+
+def test_what_is_found_comes_from_the_workers_where_they_are_reached(two):
+    assert two.client.direct_to_workers
+    (worker, *_) = two.client.scheduler_info()["workers"]
+    assert module.reaches([worker])
+    with socket.socket() as nobody:
+        nobody.bind(("127.0.0.1", 0))
+        port = nobody.getsockname()[1]
+    for gone in (f"tcp://127.0.0.1:{port}", "inproc://1", "tcp://[::1]:x"):
+        assert not module.reaches([worker, gone])
 
 
 def test_a_worker_that_is_lost_costs_its_photos_only(two, tmp_path):
