@@ -9,6 +9,7 @@ from skyline_viz.command_line.messages import UsageError, say, say_last
 from skyline_viz.command_line.sources import Missing, named
 from skyline_viz.command_line.truth_options import Truths
 from skyline_viz.datasets.layouts import Dataset, DatasetError, DatasetItem, truth_names
+from skyline_viz.datasets.lost_item import LostItem
 from skyline_viz.datasets.matching import IMAGE_FOLDERS, TRUTH_FOLDERS
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.photo import PhotoError, photo_size
@@ -121,6 +122,8 @@ def with_truth(dataset: Dataset) -> list[DatasetItem]:
         if item.truth_path:
             continue  # what is wrong with its photo is said when its turn comes
         try:
+            if isinstance(item, LostItem):
+                item.photo()  # which says why it is lost
             photo_size(item.photo_path)
             without.append(item.name)
         except PhotoError as error:

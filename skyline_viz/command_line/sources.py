@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skyline_viz.arrays import U8
+from skyline_viz.command_line.local import local
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.datasets.layouts import DatasetError, DatasetItem
-from skyline_viz.storage.addresses import is_address
-from skyline_viz.storage.copies import copied
+from skyline_viz.storage.addresses import StorageError, is_address
 
 _LIST = "@"
 _MOST_BYTES = 100_000_000  # of a list
@@ -38,14 +38,13 @@ class Missing(DatasetItem):
 def named(paths: Sequence[str | Path]) -> Iterator[Path | Missing]:
     """What a command line names: patterns become what they match, and ``@FILE`` what it lists.
 
-    An address becomes the folder of its copy.
+    An address becomes the folder of its copy, or the file of a photo.
 
     Raises:
         UsageError: A list cannot be read, or is empty.
-        StorageError: An address leads nowhere.
     """
     for word in spelt_out(os.fspath(one) for one in paths):
-        yield from [copied(word)] if is_address(word) else _matched(Path(word))
+        yield from [_copied(word)] if is_address(word) else _matched(Path(word))
 
 
 def spelt_out(words: Iterable[str]) -> Iterator[str]:
@@ -63,6 +62,14 @@ def spelt_out(words: Iterable[str]) -> Iterator[str]:
             yield from _lines(word[1:])
         else:
             yield word
+
+
+def _copied(address: str) -> Path | Missing:
+    """What is at an address, on this machine."""
+    try:
+        return local(address)
+    except StorageError as error:
+        return Missing(address.rpartition("/")[2], Path(address), reason=str(error))
 
 
 def _matched(path: Path) -> Iterator[Path | Missing]:

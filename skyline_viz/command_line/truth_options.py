@@ -34,16 +34,15 @@ class Truths:
         """Open a data set, a folder or an address, whose truths are read in this way.
 
         Raises:
-            StorageError: The address leads nowhere.
+            StorageError: The address leads nowhere, or cannot be copied.
             DatasetError: As `skyline_viz.open_dataset`.
         """
+        from skyline_viz.command_line.local import local
         from skyline_viz.datasets.layouts import open_dataset
-        from skyline_viz.storage.addresses import is_address
-        from skyline_viz.storage.copies import copied
+        from skyline_viz.datasets.lost_item import with_lost
 
-        if is_address(folder):
-            folder = copied(str(folder))
-        return open_dataset(folder, sky=self.sky, terrain=self.terrain)
+        here = local(folder)
+        return with_lost([open_dataset(here, sky=self.sky, terrain=self.terrain)], here)[0]
 
     def open_all(self, folder: Path) -> list[Dataset]:
         """Open the data sets of a folder, where it holds several.
@@ -52,8 +51,9 @@ class Truths:
             DatasetError: As `skyline_viz.datasets.layouts.open_datasets`.
         """
         from skyline_viz.datasets.layouts import open_datasets
+        from skyline_viz.datasets.lost_item import with_lost
 
-        return open_datasets(folder, sky=self.sky, terrain=self.terrain)
+        return with_lost(open_datasets(folder, sky=self.sky, terrain=self.terrain), folder)
 
 
 TruthOptions: TypeAlias = Annotated[Truths, tyro.conf.arg(name="")]

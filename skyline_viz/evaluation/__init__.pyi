@@ -23,6 +23,7 @@ from .output_files import write_evaluation as write_evaluation
 from .paired import Paired as Paired
 from .paired import all_paired as all_paired
 from .paired import paired as paired
+from .readable import readable as readable
 from .results import PhotoResult as PhotoResult
 from .results import Summary as Summary
 from .results import mean_interval as mean_interval

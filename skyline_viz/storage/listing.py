@@ -53,6 +53,8 @@ def photos_at(address: str) -> Iterator[Listed]:
 def files_at(address: str) -> Iterator[tuple[str, Listed]]:
     """All files below an address but for hidden ones, each with its path from there.
 
+    A file itself has an empty path.
+
     Raises:
         StorageError: It is missing, or cannot be listed.
     """
@@ -65,6 +67,8 @@ def files_at(address: str) -> Iterator[tuple[str, Listed]]:
 def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapping[str, Any]]]:  # noqa: ANN401
     """Names of all files below a path but for hidden ones, and what the storage says of each.
 
+    Listed alone, a file is below itself; an empty one is what some storages put for a folder.
+
     Raises:
         StorageError: It is missing, or cannot be listed.
     """
@@ -76,7 +80,9 @@ def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapp
         deeper = []
         for about in inside:
             name = str(about["name"]).rstrip("/")
-            if name.strip("/") == place.strip("/") or _is_hidden(name):
+            itself = name.strip("/") == place.strip("/")
+            alone = about["type"] == "file" and len(inside) == 1 and about.get("size")
+            if _is_hidden(name) or (itself and not alone):
                 continue
             if about["type"] == "directory":
                 deeper.append(name)

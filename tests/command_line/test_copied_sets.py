@@ -4,8 +4,10 @@ from pathlib import Path
 
 import fsspec
 import pytest
+import s3fs
 
 from skyline_viz.storage.copies import CACHE
+from testing.programs.s3 import s3 as started_s3
 
 
 @pytest.fixture
@@ -41,3 +43,48 @@ def test_diagnose_gallery_and_inspect_take_addresses(say, stored, tmp_path):
 def test_an_address_that_leads_nowhere_is_a_sentence(say, stored):
     for command in ("evaluate", "diagnose"):
         assert say(command, "memory://gone")[2] == "skyline-viz: memory://gone does not exist.\n"
+
+
+@pytest.fixture
+def bucket(hills, monkeypatch, tmp_path):
+    """The data set in a bucket, of which a photo and the truth of another one are forbidden."""
+    monkeypatch.setenv(CACHE, str(tmp_path / "cache"))
+    monkeypatch.setattr(s3fs.S3FileSystem, "retries", 1)
+    with started_s3(monkeypatch) as moods:
+        for path in Path(hills).rglob("*"):
+            if path.is_file():
+                key = f"photos/hills/{path.relative_to(hills)}"
+                fsspec.filesystem("s3").pipe(key, path.read_bytes())
+        photo, truth = "hills/images/p1.png", "hills/masks/p2.csv"
+        moods.forbidden = {photo, truth}
+        moods.said = [
+            f"skyline-viz: s3://photos/{photo} may not be read.",
+            f"skyline-viz: s3://photos/{truth} may not be read.",
+        ]
+        yield moods
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("evaluate", "--out", "out"),
+        ("evaluate", "--folds", "2", "--out", "out"),
+        ("diagnose", "--no-remedies", "--out", "out"),
+        ("gallery", "--html", "pages", "--out", "out"),
+        ("train", "--out", "bank.npz"),
+        ("train", "--method", "svm-dcsi", "--out", "svm.npz"),
+        ("tables", "--method", "edges", "--no-studies", "--out", "out"),
+        ("inspect", "--save", "all.rrd"),
+    ],
+)
+def test_what_a_storage_does_not_give_fails_alone(say, bucket, words):
+    command, *more = words
+    status, _, err = say(command, "s3://photos/hills", *more)
+    assert status == 1
+    assert err.splitlines()[-3:] == ["skyline-viz: 2 photos failed:", *bucket.said]
+
+
+def test_a_lost_photo_without_a_truth_is_named_with_the_reason(say, bucket):
+    fsspec.filesystem("s3").rm("photos/hills/masks/p1.csv")
+    err = say("evaluate", "s3://photos/hills")[2].splitlines()
+    assert f"{bucket.said[0].rstrip('.')}; it has no truth either." in err
