@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
+from skyline_viz.command_line.local import local
 from skyline_viz.command_line.messages import SOME_FAILED, UsageError, counted, say, status_after
+from skyline_viz.storage.addresses import StorageError, is_address
+from skyline_viz.storage.copies import lost_in
 from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
@@ -18,7 +22,7 @@ if TYPE_CHECKING:
     from skyline_viz.running.batch import Failure
 
 LineFolders: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="[LABEL=]DIR")]
-"""Folders or files of lines, each with a label before it or not."""
+"""Folders or files of lines, by paths or addresses, each with a label before it or not."""
 
 
 def open_lines(
@@ -34,15 +38,20 @@ def open_lines(
     Raises:
         UsageError: Two have the same name.
         DatasetError: One does not exist, or holds no line for any of the photos.
+        StorageError: An address leads nowhere, or not all that is there can be had.
     """
     from skyline_viz.datasets.predictions import open_predictions
 
     found: list[Predictions] = []
     for text in folders:
         label, equals, place = text.partition("=")
-        if not equals or Path(text).exists():
+        if not equals or is_address(text) or Path(text).exists():
             label, place = "", text
-        one = open_predictions(place, items, name=label, sky=truths.sky, terrain=truths.terrain)
+        here = local(place)
+        if lost := lost_in(here):
+            raise StorageError(next(iter(lost.values())))
+        one = open_predictions(here, items, name=label, sky=truths.sky, terrain=truths.terrain)
+        one = replace(one, source=place)
         if one.name in {other.name for other in found}:
             raise UsageError(
                 f"two folders of lines are called {one.name}; give one a label: other={place}."

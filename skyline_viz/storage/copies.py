@@ -25,6 +25,7 @@ from typing import Any, Protocol, Self
 
 from skyline_viz.files import make_folder, replacing, write_text
 from skyline_viz.storage.addresses import StorageError, scheme
+from skyline_viz.storage.copy_names import name_of, remember
 from skyline_viz.storage.fetching import OutageError, fetch
 from skyline_viz.storage.listing import Listed, files_at, is_photo
 from skyline_viz.system.memory import in_words
@@ -68,12 +69,10 @@ def copied(address: str, bar: Callable[[int, str], Bar] | None = None) -> Path:
             disk is small.
         OSError: It cannot be written.
     """
-    inner, _, around = address.partition("::")
-    name = PurePosixPath(inner.partition("?")[0]).name
-    name = name if inner.partition("//")[2] else PurePosixPath(around).stem
     home = caches() / hashlib.sha256(address.encode()).hexdigest()[:16]
-    target = home / (name or "photos")
-    if _is_file(inner):
+    target = home / name_of(address)
+    remember(target, address)
+    if _is_file(address.partition("::")[0]):
         _write(target, Listed(address))
         return target
     files = dict(files_at(address))
