@@ -11,8 +11,7 @@ import tyro
 
 from skyline_viz.command_line.local import local
 from skyline_viz.command_line.messages import SOME_FAILED, UsageError, counted, say, status_after
-from skyline_viz.storage.addresses import StorageError, is_address
-from skyline_viz.storage.copies import lost_in
+from skyline_viz.storage.addresses import is_address
 from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
@@ -38,8 +37,9 @@ def open_lines(
     Raises:
         UsageError: Two have the same name.
         DatasetError: One does not exist, or holds no line for any of the photos.
-        StorageError: An address leads nowhere, or not all that is there can be had.
+        StorageError: An address leads nowhere, or it cannot be copied.
     """
+    from skyline_viz.datasets.lost_item import lines_with_lost
     from skyline_viz.datasets.predictions import open_predictions
 
     found: list[Predictions] = []
@@ -48,10 +48,8 @@ def open_lines(
         if not equals or is_address(text) or Path(text).exists():
             label, place = "", text
         here = local(place)
-        if lost := lost_in(here):
-            raise StorageError(next(iter(lost.values())))
         one = open_predictions(here, items, name=label, sky=truths.sky, terrain=truths.terrain)
-        one = replace(one, source=place)
+        one = replace(lines_with_lost(one, here), source=place)
         if one.name in {other.name for other in found}:
             raise UsageError(
                 f"two folders of lines are called {one.name}; give one a label: other={place}."

@@ -56,10 +56,15 @@ def refuse_addresses(command: object) -> None:
     """
     for name, path in _paths(command):
         if address := spelt_as_address(path):
-            raise UsageError(
-                f"{address} is an address, and --{name.replace('_', '-')} takes a path of this "
-                f"machine; copy from there or to there, with aws s3 cp or the like."
-            )
+            raise no_path(address, name.replace("_", "-"))
+
+
+def no_path(address: str, option: str) -> UsageError:
+    """What is said of an address where an option takes a path."""
+    return UsageError(
+        f"{address} is an address, and --{option} takes a path of this machine; copy from there "
+        f"or to there, with aws s3 cp or the like."
+    )
 
 
 def _paths(options: object) -> Iterator[tuple[str, Path]]:

@@ -1,4 +1,4 @@
-"""Photos and truths that the storage of a data set did not give: they fail at their turn."""
+"""Photos, truths and lines that a storage did not give: they fail when their turn comes."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 
 from skyline_viz.arrays import U8
 from skyline_viz.datasets.layouts import Dataset, DatasetItem
+from skyline_viz.datasets.predictions import LineFile, Predictions
 from skyline_viz.photo import PHOTO_SUFFIXES, PhotoError
 from skyline_viz.skyline import Skyline, SkylineError
 from skyline_viz.storage.addresses import StorageError
@@ -67,12 +68,53 @@ def with_lost(datasets: Iterable[Dataset], folder: Path) -> list[Dataset]:
         claimed |= {path for one in items if isinstance(one, LostItem) for path, _ in one.lost}
         found.append(replace(dataset, items=tuple(items)))
     others = {path: reason for path, reason in lost.items() if path not in claimed}
-    for path, reason in others.items():
-        if path.suffix.lower() in _TELLING:
-            raise StorageError(reason)
+    _refuse_telling(others)
     pictures = {f"{path.relative_to(folder)}" for path in others if _is_picture(path)}
     told = [one for one in found[0].problems if one.removesuffix(" has no photo.") not in pictures]
     return [replace(found[0], problems=(*told, *others.values())), *found[1:]]
+
+
+@dataclass(frozen=True)
+class LostLine(LineFile):
+    """The file of a line that is not there."""
+
+    reason: str = ""
+    """Why, in a sentence."""
+
+    def read(self, size: tuple[int, int]) -> Skyline:  # noqa: ARG002 - of whatever size
+        """Refuse.
+
+        Raises:
+            SkylineError: Always.
+        """
+        raise SkylineError(self.reason)
+
+
+def lines_with_lost(lines: Predictions, folder: Path) -> Predictions:
+    """Lines of a folder, in which files that could not be copied are said to be lost.
+
+    Args:
+        lines: What was found there.
+        folder: The folder, a copy or any other.
+
+    Raises:
+        StorageError: A text is lost that may have held the lines of many photos.
+    """
+    lost = lost_in(folder)
+    if not lost:
+        return lines
+    found = dict(lines.lines)
+    for photo, line in lines.lines.items():
+        if isinstance(line, LineFile) and line.path in lost:
+            found[photo] = LostLine(line.path, reason=lost.pop(line.path))
+    _refuse_telling(lost)
+    return replace(lines, lines=found, notes=(*lines.notes, *lost.values()))
+
+
+def _refuse_telling(lost: Mapping[Path, str]) -> None:
+    for path, reason in lost.items():
+        if path.suffix.lower() in _TELLING:
+            raise StorageError(reason)
 
 
 def _marked(item: DatasetItem, lost: Mapping[Path, str]) -> DatasetItem:
