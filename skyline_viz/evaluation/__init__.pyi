@@ -23,7 +23,6 @@ from .output_files import write_evaluation as write_evaluation
 from .paired import Paired as Paired
 from .paired import all_paired as all_paired
 from .paired import paired as paired
-from .readable import readable as readable
 from .results import PhotoResult as PhotoResult
 from .results import Summary as Summary
 from .results import mean_interval as mean_interval
@@ -44,6 +43,7 @@ from .terminal import methods_table as methods_table
 from .terminal import summary_table as summary_table
 from .terminal import worst_table as worst_table
 from .timing import time_methods as time_methods
+from .training_runs import readable as readable
 from .training_runs import train_on as train_on
 from .training_runs import train_on_several as train_on_several
 from .training_runs import train_sizes as train_sizes

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from skyline_viz.datasets.item import Item
-from skyline_viz.evaluation.readable import readable
+from skyline_viz.evaluation.training_runs import readable
 from skyline_viz.method import AddingLearner, Learner, Method, MethodError
 from skyline_viz.methods.registry import load_method, save_method
 from skyline_viz.running.batch import Failure, run, sentence

@@ -13,6 +13,8 @@ from skyline_viz.storage.addresses import StorageError, address_of, file_system,
 _STAMPS = ("ETag", "etag", "md5Hash", "crc32c", "content_md5", "md5", "CRC")
 """What storages tell of a file's content, without its being read."""
 
+_ARCHIVES = {"zip": (".zip",), "tar": (".tar", ".tar.gz", ".tgz")}
+
 
 @dataclass(frozen=True, slots=True)
 class Listed:
@@ -41,6 +43,7 @@ def photos_at(address: str) -> Iterator[Listed]:
     if is_photo(address.partition("::")[0]):
         yield Listed(address)
         return
+    _refuse_archive(address)
     some = False
     for name, about in files_below(found, path, address):
         if is_photo(name):
@@ -58,6 +61,7 @@ def files_at(address: str) -> Iterator[tuple[str, Listed]]:
     Raises:
         StorageError: It is missing, or cannot be listed.
     """
+    _refuse_archive(address)
     found, path = file_system(address)
     for name, about in files_below(found, path, address):
         own = name.strip("/").removeprefix(path.strip("/")).strip("/")
@@ -89,6 +93,18 @@ def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapp
             else:
                 yield name, about
         folders += reversed(deeper)
+
+
+def _refuse_archive(address: str) -> None:
+    """Say how an archive is named where it is named as a file.
+
+    Raises:
+        StorageError: It is.
+    """
+    last = address.partition("::")[0].partition("?")[0].lower()
+    kind = next((kind for kind, endings in _ARCHIVES.items() if last.endswith(endings)), None)
+    if kind:
+        raise StorageError(f"{address} is an archive; what is in it is {kind}://::{address}.")
 
 
 def _is_hidden(name: str) -> bool:
