@@ -8,7 +8,7 @@ import tyro
 from annotate.commands.agreement import Agreement
 from annotate.commands.consensus import Consensus
 from annotate.commands.open import Open
-from annotate.commands.options import PROGRAM
+from annotate.commands.options import PROGRAM, refuse_stored
 from annotate.commands.repairs import Repair
 from annotate.commands.status import Status
 from annotate.commands.transfer import Backup, Export, Import
@@ -39,7 +39,9 @@ def parse(arguments: list[str]) -> Command:
         ValueError: A setting has a value that it refuses.
     """
     words = spelt_out(arguments, masks=("import",))
-    return parsed(PROGRAM, _ABOUT, commands(described(words)), words)
+    command = parsed(PROGRAM, _ABOUT, commands(described(words)), words)
+    refuse_stored(getattr(command, "folder", None))
+    return command
 
 
 def commands(methods: Methods) -> dict[str, Command]:

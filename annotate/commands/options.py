@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 import tyro
 
 from annotate.store.labels import CONSENSUS
+from skyline_viz.command_line.local import spelt_as_address
 from skyline_viz.command_line.messages import UsageError, say
 
 if TYPE_CHECKING:
@@ -72,6 +73,19 @@ def check_folder(folder: Path) -> Path:
         reason = "is a file, not a folder" if folder.exists() else "does not exist"
         raise UsageError(f"{folder} {reason}.")
     return folder
+
+
+def refuse_stored(folder: Path | None) -> None:
+    """Refuse an address for a folder of photos.
+
+    Raises:
+        UsageError: It is one.
+    """
+    if folder is not None and (address := spelt_as_address(folder)):
+        raise UsageError(
+            f"{address} is an address, and labels are kept beside their photos, in a folder of "
+            f"this machine; copy the photos into one, with aws s3 sync or the like."
+        )
 
 
 @contextmanager

@@ -20,10 +20,12 @@ from annotate.commands.options import (
     opened,
     whoever,
 )
+from skyline_viz.command_line.local import local
 from skyline_viz.command_line.messages import GOOD, SOME_FAILED, UsageError, counted, say, tell
 from skyline_viz.command_line.settings import OptionalFolder, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
+from skyline_viz.storage.copies import lost_in
 from skyline_viz.system.memory import MAX_MEGAPIXELS
 
 if TYPE_CHECKING:
@@ -105,8 +107,8 @@ class Import:
     folder: PhotoFolder
     """Folder of the photos."""
 
-    source: Annotated[Path, tyro.conf.Positional, tyro.conf.arg(metavar="FILE_OR_DIR")]
-    """What to read."""
+    source: Annotated[str, tyro.conf.Positional, tyro.conf.arg(metavar="FILE_OR_DIR")]
+    """What to read, a path or an address such as s3://BUCKET/FOLDER."""
 
     format: FormatName | None = None
     """Its format; told by the content unless given."""
@@ -167,8 +169,11 @@ class Import:
         if not photos:
             raise UsageError(f"{self.folder} holds no photograph.")
         by_name = {photo.name: photo for photo in photos}
+        source = local(self.source)
+        if lost := lost_in(source):
+            raise UsageError(next(iter(lost.values())))
         read = import_labels(
-            self.source,
+            source,
             self.folder,
             by_name,
             self.format,
@@ -184,7 +189,7 @@ class Import:
             who = self.annotator or (told.annotator if told else "") or whoever("")
             number = self.pass_number or (told.number if told else 1)
             try:
-                log = checked(one, photo, who, number, status=self.status, source=self.source.name)
+                log = checked(one, photo, who, number, status=self.status, source=source.name)
             except FormatError as error:
                 problems.append(str(error))
                 continue

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import tyro
 
+from skyline_viz.command_line.local import local
 from skyline_viz.command_line.messages import SOME_FAILED, UsageError, counted, say, status_after
+from skyline_viz.storage.addresses import is_address
 from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
@@ -18,7 +21,7 @@ if TYPE_CHECKING:
     from skyline_viz.running.batch import Failure
 
 LineFolders: TypeAlias = Annotated[tuple[str, ...], tyro.conf.arg(metavar="[LABEL=]DIR")]
-"""Folders or files of lines, each with a label before it or not."""
+"""Folders or files of lines, by paths or addresses, each with a label before it or not."""
 
 
 def open_lines(
@@ -34,15 +37,19 @@ def open_lines(
     Raises:
         UsageError: Two have the same name.
         DatasetError: One does not exist, or holds no line for any of the photos.
+        StorageError: An address leads nowhere, or it cannot be copied.
     """
+    from skyline_viz.datasets.lost_item import lines_with_lost
     from skyline_viz.datasets.predictions import open_predictions
 
     found: list[Predictions] = []
     for text in folders:
         label, equals, place = text.partition("=")
-        if not equals or Path(text).exists():
+        if not equals or is_address(text) or Path(text).exists():
             label, place = "", text
-        one = open_predictions(place, items, name=label, sky=truths.sky, terrain=truths.terrain)
+        here = local(place)
+        one = open_predictions(here, items, name=label, sky=truths.sky, terrain=truths.terrain)
+        one = replace(lines_with_lost(one, here), source=place)
         if one.name in {other.name for other in found}:
             raise UsageError(
                 f"two folders of lines are called {one.name}; give one a label: other={place}."

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import TextIO
 
 from skyline_viz.running.batch import Failure
+from skyline_viz.storage.copy_names import by_address
 from skyline_viz.system.names import printable
 from skyline_viz.system.telling import Telling, telling
 
@@ -69,9 +70,16 @@ def say_what_is_left() -> None:
 
 
 def _write(line: str, stream: TextIO) -> None:
-    """Print a line, with escapes for what the stream's encoding has not."""
+    """Print a line, with escapes for what the stream's encoding has not.
+
+    Copies of what lies in a storage are called by their addresses.
+    """
     encoding = stream.encoding or "utf-8"
-    print(line.encode(encoding, "backslashreplace").decode(encoding), file=stream, flush=True)
+    print(
+        by_address(line).encode(encoding, "backslashreplace").decode(encoding),
+        file=stream,
+        flush=True,
+    )
 
 
 def counted(count: int, noun: str) -> str:

@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias, get_args
 import tyro
 
 from skyline_viz.command_line.earlier_run import earlier
+from skyline_viz.command_line.local import no_path
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.command_line.settings import BankFile, Preset, RunFile
 from skyline_viz.config import DetectorConfig, refuse_gone
 from skyline_viz.methods.names import NAMES
 from skyline_viz.picture_files.kinds import PHOTO_SUFFIXES
+from skyline_viz.storage.addresses import is_address
 from skyline_viz.system.memory import loading
 from skyline_viz.system.settings import MethodError, spelt
 from skyline_viz.system.stand_ins import without
@@ -88,6 +90,8 @@ class Methods:
             from skyline_viz.methods.registry import find_method, has_learned
             from skyline_viz.methods.sky_network import SkyNetwork
 
+        if stored := next(filter(is_address, map(_unlabelled, self.method)), None):
+            raise no_path(stored, "method")
         if self.sky_class and self.network is None:
             raise UsageError("--sky-class is a class of --network, which is not named.")
         if to_train and (file := next(filter(has_learned, self.method), self.bank)):
@@ -191,6 +195,11 @@ def spelt_out(arguments: Sequence[str], masks: Container[str]) -> list[str]:
     return words[:1] + moved + words[1:]
 
 
+def _unlabelled(method: str) -> str:
+    label, equals, rest = method.partition("=")
+    return rest if equals and ":" not in label else method
+
+
 def _is_photo(word: str) -> bool:
     """Whether a word is a photo or folder, and names no method."""
     path = Path(word)
@@ -219,7 +228,9 @@ def described(arguments: Sequence[str]) -> Methods:
     short = ("--preset", "--bank", "--config", "--sky-model")
     ours = any(word.startswith(short) for word in words)
     config = DetectorConfig()
-    if runs := [Path(after) for word, after in pairwise(words) if word == "--config"]:
+    if runs := [after for word, after in pairwise(words) if word == "--config"]:
+        if is_address(runs[-1]):
+            raise no_path(runs[-1], "config")
         if presets:
             raise UsageError("--config FILE and --preset both say where settings start; use one.")
         trains = words[0] == "train" or "--folds" in words

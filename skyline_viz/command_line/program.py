@@ -19,6 +19,7 @@ import tyro
 
 from skyline_viz import __version__
 from skyline_viz.command_line.help_pages import asks_for_help, page
+from skyline_viz.command_line.local import refuse_addresses
 from skyline_viz.command_line.messages import (
     BROKEN_PIPE,
     GOOD,
@@ -148,6 +149,7 @@ def _run(program: str, parse: Callable[[list[str]], Command], arguments: list[st
         return code if isinstance(code, int) else USAGE
     if (megapixels := getattr(command, "max_megapixels", None)) is not None:
         limit(megapixels)
+    refuse_addresses(command)
     return command.run()
 
 

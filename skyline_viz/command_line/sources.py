@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skyline_viz.arrays import U8
+from skyline_viz.command_line.local import local
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.datasets.dataset import DatasetError, DatasetItem
 from skyline_viz.datasets.parquet_files import is_label_table
-from skyline_viz.storage.addresses import is_address
-from skyline_viz.storage.copies import copied
+from skyline_viz.storage.addresses import StorageError, is_address
 
 _LIST = "@"
 _MOST_BYTES = 100_000_000  # of a list
@@ -39,17 +39,16 @@ class Missing(DatasetItem):
 def named(paths: Sequence[str | Path]) -> Iterator[Path | str | Missing]:
     """What a command line names: patterns become what they match, and ``@FILE`` what it lists.
 
-    An address becomes the folder of its copy; that of a table of labels stays.
+    An address becomes the folder of its copy, or the file of a photo; that of a table stays.
 
     Raises:
         UsageError: A list cannot be read, or is empty.
-        StorageError: An address leads nowhere.
     """
     for word in spelt_out(os.fspath(one) for one in paths):
         if not is_address(word):
             yield from _matched(Path(word))
         else:
-            yield word if is_label_table(word) else copied(word)
+            yield word if is_label_table(word) else _copied(word)
 
 
 def spelt_out(words: Iterable[str]) -> Iterator[str]:
@@ -67,6 +66,14 @@ def spelt_out(words: Iterable[str]) -> Iterator[str]:
             yield from _lines(word[1:])
         else:
             yield word
+
+
+def _copied(address: str) -> Path | Missing:
+    """What is at an address, on this machine."""
+    try:
+        return local(address)
+    except StorageError as error:
+        return Missing(address.rpartition("/")[2], Path(address), reason=str(error))
 
 
 def _matched(path: Path) -> Iterator[Path | Missing]:

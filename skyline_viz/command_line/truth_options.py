@@ -34,17 +34,18 @@ class Truths:
         """Open a data set, a folder, an address or a table, whose truths are read in this way.
 
         Raises:
-            StorageError: The address leads nowhere.
+            StorageError: The address leads nowhere, or cannot be copied.
             DatasetError: As `skyline_viz.open_dataset`.
         """
+        from skyline_viz.command_line.local import local
         from skyline_viz.datasets.layouts import open_dataset
+        from skyline_viz.datasets.lost_item import with_lost
         from skyline_viz.datasets.parquet_files import is_label_table
-        from skyline_viz.storage.addresses import is_address
-        from skyline_viz.storage.copies import copied
 
-        if is_address(folder) and not is_label_table(folder):
-            folder = copied(str(folder))
-        return open_dataset(folder, sky=self.sky, terrain=self.terrain)
+        if is_label_table(folder):
+            return open_dataset(folder)
+        here = local(folder)
+        return with_lost([open_dataset(here, sky=self.sky, terrain=self.terrain)], here)[0]
 
     def open_all(self, folder: str | Path) -> list[Dataset]:
         """Open the data sets of a folder, where it holds several; or a table.
@@ -53,8 +54,11 @@ class Truths:
             DatasetError: As `skyline_viz.datasets.layouts.open_datasets`.
         """
         from skyline_viz.datasets.layouts import open_datasets
+        from skyline_viz.datasets.lost_item import with_lost
+        from skyline_viz.datasets.parquet_files import is_label_table
 
-        return open_datasets(folder, sky=self.sky, terrain=self.terrain)
+        found = open_datasets(folder, sky=self.sky, terrain=self.terrain)
+        return found if is_label_table(folder) else with_lost(found, Path(folder))
 
 
 TruthOptions: TypeAlias = Annotated[Truths, tyro.conf.arg(name="")]

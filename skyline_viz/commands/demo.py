@@ -32,11 +32,12 @@ class Demo:
     """
 
     photos: Annotated[
-        tuple[Path, ...],
+        tuple[str, ...],
         tyro.conf.Positional,
         tyro.conf.arg(metavar="PHOTO"),
     ] = ()
-    """Photos, folders of photos, or data sets; the sample photos unless given."""
+    """Photos, folders of photos, or data sets, by paths or addresses; the sample photos unless
+    given."""
 
     out: Folder = Path("skyline-demo")
     """Folder of the gallery; without a display, a picture of it goes there, too."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
+from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.command_line.inputs import NO_PHOTOS, output_folder
 from skyline_viz.command_line.messages import (
     UsageError,
@@ -96,19 +97,17 @@ class Detect:
 
     cluster: ClusterAddress = None
     """Work on a cluster instead: tcp://HOST:PORT, the address of a dask scheduler, or local:N for
-    one of N processes on this machine. For --out FILE.parquet."""
+    one of N processes on this machine. Its machines share the folders of photos, and DIR."""
 
     shard: Annotated[str | None, tyro.conf.arg(metavar="I/N")] = None
-    """Do only this part of N, such as 3/8; FILE.parquet is then a folder of parts, of which join
-    makes one table."""
+    """Do only this part of N, such as 3/8, for --out FILE.parquet: that is then a folder of parts,
+    of which join makes one table."""
 
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
 
     def run(self) -> int:
         """Detect all photos; return the exit status."""
-        from skyline_viz.running.resume import Codec, Kept, digest_of_method
-
         if not self.photos:
             raise UsageError(NO_PHOTOS)
         if not 0 <= self.overlay_width <= _WIDEST:
@@ -121,35 +120,40 @@ class Detect:
         detector = self.methods.one()
         if is_table_name(self.out):
             return self._to_table(began, detector)
-        for option, value in (("--cluster", self.cluster), ("--shard", self.shard)):
-            if value is not None:
-                raise UsageError(f"{option} writes one table: name it with --out FILE.parquet.")
+        if self.shard is not None:
+            raise UsageError("--shard writes one table: name it with --out FILE.parquet.")
         if is_address(self.out):
             raise UsageError("files go into a folder; an address takes a table, FILE.parquet.")
-        out = Path(self.out)
+        return self._to_folder(began, detector, Path(self.out))
+
+    def _to_folder(self, began: Beginning, detector: Method, out: Path) -> int:
+        from skyline_viz.running.resume import Codec, Kept, digest_of_method
+
         inputs = collect_stored(self.photos, taken=(Path(TABLE).stem, Path(RECORD).stem))
-        output_folder(out, (one.item for one in inputs))
+        files = [one.item for one in inputs if not isinstance(one.item, StoredItem)]
+        output_folder(out, files)
         wide = max(columns_of(shortened(one.name)) for one in inputs)
         failures: list[Failure] = []
         rows: list[PhotoRow] = []
-        workers = foresee((one.item for one in inputs), self.workers)
+        workers = self.workers if self.cluster else foresee(files, self.workers)
         kept = Kept.within(out, "detect")
-        outcomes = kept.run(
-            partial(_detect, self, detector),
-            inputs,
-            partial(_key, self, digest_of_method(detector)),
-            Codec(_pack, _unpack),
-            workers=workers,
-        )
-        for photo, outcome in zip(inputs, outcomes, strict=True):
-            if isinstance(outcome, Failure):
-                failures.append(outcome)
-                rows.append(_failed(photo, outcome))
-                continue
-            rows.append(outcome.row)
-            tell_done(outcome.line(wide))
-            if outcome.doubt:
-                tell(f"{shortened(photo.name)}: {outcome.doubt}")
+        with on_cluster(self.cluster, self.workers, out):
+            outcomes = kept.run(
+                partial(_detect, self, detector),
+                inputs,
+                partial(_key, self, digest_of_method(detector)),
+                Codec(_pack, _unpack),
+                workers=workers,
+            )
+            for photo, outcome in zip(inputs, outcomes, strict=True):
+                if isinstance(outcome, Failure):
+                    failures.append(outcome)
+                    rows.append(_failed(photo, outcome))
+                    continue
+                rows.append(outcome.row)
+                tell_done(outcome.line(wide))
+                if outcome.doubt:
+                    tell(f"{shortened(photo.name)}: {outcome.doubt}")
         write_table(out / TABLE, rows)
         began.write(out / RECORD, detector, self.methods.bank, self._options(), rows)
         kept.remove()
@@ -295,7 +299,8 @@ def _unpack(kept: dict[str, Any]) -> _Found:
 
 def _failed(photo: NamedItem, failure: Failure) -> PhotoRow:
     """What there is to know of a photo that failed."""
-    digest = digest_of_content(photo.item.photo_path)
+    stored = isinstance(photo.item, StoredItem)
+    digest = "" if stored else digest_of_content(photo.item.photo_path)
     return PhotoRow(photo.name, photo.item.where, digest, error=failure.reason)
 
 

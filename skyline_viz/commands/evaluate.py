@@ -53,8 +53,9 @@ class Evaluate(OnTruth):
     made where it is missing."""
 
     predictions: LineFolders = ()
-    """Lines that exist as files, each [LABEL=]DIR: another method's, a network's, a person's. CSV,
-    JSON or masks, called as their photos; instead of a method, or beside those of --method."""
+    """Lines that exist as files, each [LABEL=]DIR, a path or an address: another method's, a
+    network's, a person's. CSV, JSON or masks, called as their photos; instead of a method, or
+    beside those of --method."""
 
     report: ReportFile = None
     """Write a report to be mailed: one HTML file with figures, photos, causes and stages."""

@@ -13,6 +13,7 @@ import tyro
 
 from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.command_line.inputs import collect, output_folder
+from skyline_viz.command_line.local import called
 from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
@@ -147,7 +148,7 @@ class GalleryCommand:
             raise UsageError("--cause is for the viewer; the page of --html has a filter for it.")
         inputs = collect(self.photos, self.truths)
         if self.html:
-            title = Path(self.photos[0]).resolve().name
+            title = called(self.photos[0])
             chosen = self.methods.chosen()
             return write_pages(
                 self.html, title, inputs, chosen, self.out, self.workers, self.cluster

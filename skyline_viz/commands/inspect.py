@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import tyro
 
 from skyline_viz.command_line.inputs import NO_PHOTOS, collect
+from skyline_viz.command_line.local import called, local
 from skyline_viz.command_line.messages import (
     GOOD,
     SOME_FAILED,
@@ -26,7 +27,6 @@ from skyline_viz.command_line.messages import (
 from skyline_viz.command_line.methods import MethodOptions, Methods
 from skyline_viz.command_line.reporting import ReportFile, check_report
 from skyline_viz.command_line.settings import (
-    OptionalFolder,
     Switch,
     check_picture,
     window_size,
@@ -100,14 +100,16 @@ class Inspect:
     split: Switch = False
     """One recording a photo."""
 
-    truth: Annotated[Path | None, tyro.conf.arg(metavar="FILE")] = None
-    """True skyline of a single photo: painted photo, mask, CSV or JSON. Data sets bring theirs."""
+    truth: Annotated[str | None, tyro.conf.arg(metavar="FILE")] = None
+    """True skyline of a single photo, by its path or address: painted photo, mask, CSV or JSON.
+    Data sets bring theirs."""
 
     sweep: Switch = False
     """Sweep single settings of one photo along timelines: drag one, and see the path change."""
 
-    sweep_training: OptionalFolder = None
-    """Data set to train filters of other sizes on, for --sweep; the photo itself is left out."""
+    sweep_training: Annotated[str | None, tyro.conf.arg(metavar="DATASET")] = None
+    """Folder or address of a data set to train filters of other sizes on, for --sweep; the photo
+    itself is left out."""
 
     methods: MethodOptions = field(default_factory=Methods)
     """What to look at. Of two, the second is laid beside the first; of more, each gets a tab."""
@@ -133,7 +135,7 @@ class Inspect:
         if self.sweep and len(inputs) > 1:
             raise UsageError(f"--sweep belongs to one photo, and there are {len(inputs)}.")
         if self.report:
-            title = inputs[0].name if len(inputs) == 1 else Path(self.photos[0]).resolve().name
+            title = inputs[0].name if len(inputs) == 1 else called(self.photos[0])
             items = [replace(self._with_truth(one), name=one.name) for one in inputs]
             return write_report(self.report, title, items, self.methods.chosen())
         failures: list[Failure] = []
@@ -250,7 +252,7 @@ class Inspect:
         files: list[Path] = []
         with ProgressBar(len(inputs), "photos") as bar:
             for group in groups:
-                name = group[0].name if len(group) == 1 else Path(self.photos[0]).resolve().name
+                name = group[0].name if len(group) == 1 else called(self.photos[0])
                 total = sum(pixels.get(one.name, 0) for one in group)
                 fidelity = fidelity_of(total, self.full_megapixels, alone=len(group) == 1)
                 together = self.save if not self.split else None
@@ -344,7 +346,9 @@ class Inspect:
         if self.truth is None:
             return one.item
         sky, terrain = self.truths.sky, self.truths.terrain
-        return replace(one.item, truth_path=self.truth, label_map=False, sky=sky, terrain=terrain)
+        return replace(
+            one.item, truth_path=local(self.truth), label_map=False, sky=sky, terrain=terrain
+        )
 
     def _lay_out(self, recording: rr.RecordingStream, contents: Contents | None) -> None:
         from skyline_viz.viewer.blueprints import detection_blueprint

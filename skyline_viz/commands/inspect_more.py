@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from filecmp import cmp
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from skyline_viz import evaluation
@@ -102,11 +104,19 @@ def train_sizes(
     Raises:
         UsageError: The data set holds no other photo with a truth.
     """
-    own = one.item.photo_path.resolve()
-    others = [item for item in with_truth(dataset) if item.photo_path.resolve() != own]
+    own = one.item.photo_path
+    others = [item for item in with_truth(dataset) if not _is_same(item.photo_path, own)]
     if not others:
         raise UsageError(f"{dataset.name} holds no photo with a truth but {one.name} itself.")
     return evaluation.train_sizes(others, detector.training, dataset=dataset.name)
+
+
+def _is_same(photo: Path, other: Path) -> bool:
+    """Whether two files are one photo: the same file, or copies, as those of a storage are."""
+    try:
+        return photo.resolve() == other.resolve() or cmp(photo, other, shallow=False)
+    except OSError:  # one of them cannot be read, which is told at its turn
+        return False
 
 
 def begin_sweeps(

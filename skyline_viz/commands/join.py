@@ -8,7 +8,9 @@ from typing import Annotated
 
 import tyro
 
+from skyline_viz.command_line.local import local
 from skyline_viz.command_line.messages import GOOD, UsageError, counted, tell
+from skyline_viz.storage.copies import lost_in
 
 
 @dataclass(frozen=True)
@@ -22,9 +24,9 @@ class Join:
     """
 
     folder: Annotated[
-        Path, tyro.conf.Positional, tyro.conf.arg(metavar="DIR", help_behavior_hint="(required)")
+        str, tyro.conf.Positional, tyro.conf.arg(metavar="DIR", help_behavior_hint="(required)")
     ]
-    """Folder of all shards, the --out of the runs with --shard."""
+    """Folder or address of all shards, the --out of the runs with --shard."""
 
     out: Annotated[Path, tyro.conf.arg(metavar="FILE")]
     """FILE.parquet for the table, or FILE.npz for the detector; what is there is replaced."""
@@ -34,19 +36,22 @@ class Join:
         from skyline_viz.running.line_table import SUFFIX
         from skyline_viz.running.shards import join
 
-        if not self.folder.is_dir():
+        folder = local(self.folder)
+        if not folder.is_dir():
             raise UsageError(f"{self.folder} is no folder of shards.")
+        if lost := lost_in(folder):
+            raise UsageError(next(iter(lost.values())))
         if self.out.suffix.lower() == ".npz" and not self.out.is_dir():
-            return self._train()
+            return self._train(folder)
         if self.out.suffix.lower() != SUFFIX or self.out.is_dir():
             raise UsageError(
                 f"name a file that ends in {SUFFIX} for a table, or in .npz for a detector, not "
                 f"{self.out}."
             )
-        tell(f"{counted(join(self.folder, self.out), 'photo')} in {self.out}")
+        tell(f"{counted(join(folder, self.out), 'photo')} in {self.out}")
         return GOOD
 
-    def _train(self) -> int:
+    def _train(self, folder: Path) -> int:
         """Solve what shards of a training have gathered."""
         from skyline_viz.commands.train import save_trained
         from skyline_viz.detector import Detector
@@ -54,7 +59,7 @@ class Join:
         from skyline_viz.methods.registry import find_method
         from skyline_viz.running.gram_shards import joined
 
-        found = joined(self.folder)
+        found = joined(folder)
         method = find_method(found.method)
         if not isinstance(method, Detector):
             raise UsageError(f"the shards of {self.folder} are of no detector of ours.")

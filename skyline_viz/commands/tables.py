@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import tyro
 
 from skyline_viz import evaluation, methods, running
+from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import (
     SOME_FAILED,
@@ -22,7 +23,7 @@ from skyline_viz.command_line.messages import (
     tell_drawn,
 )
 from skyline_viz.command_line.methods import MethodOptions, Methods
-from skyline_viz.command_line.settings import Folder, Switch
+from skyline_viz.command_line.settings import ClusterAddress, Folder, Switch
 from skyline_viz.command_line.sizes import MaxMegapixels, foresee
 from skyline_viz.command_line.truth_options import TruthOptions, Truths
 from skyline_viz.files import write_text
@@ -48,11 +49,11 @@ class Tables:
     """
 
     datasets: Annotated[
-        tuple[Path, ...],
+        tuple[str, ...],
         tyro.conf.Positional,
         tyro.conf.arg(metavar="DATASET"),
     ]
-    """Folders of data sets with truths, in a published layout or plain."""
+    """Folders or addresses of data sets with truths, in a published layout or plain."""
 
     out: Folder = Path("skyline-tables")
     """Folder for tables.md, tables.tex and the files of `evaluate`; made where it is missing."""
@@ -75,6 +76,11 @@ class Tables:
     workers: int = 0
     """Processes to work in; 0 chooses by the number of photos, their size and the free memory."""
 
+    cluster: ClusterAddress = None
+    """Work on a cluster instead: tcp://HOST:PORT, the address of a dask scheduler, or local:N for
+    one of N processes on this machine. Its machines share the folders of photos and of --out. Times
+    are still those of this machine."""
+
     max_megapixels: MaxMegapixels = MAX_MEGAPIXELS
     """Largest photo that is read, in million pixels."""
 
@@ -96,38 +102,45 @@ class Tables:
                 raise UsageError(f"two data sets are called {dataset.name}; rename a folder.")
             output_folder(self.out, dataset)
             sets[dataset.name] = with_truth(dataset)
-        workers = foresee([item for items in sets.values() for item in items], self.workers)
+        workers = self.workers
+        if self.cluster is None:
+            workers = foresee([item for items in sets.values() for item in items], workers)
         kept = running.Kept.within(self.out, "tables")
-        measured = {
-            name: evaluation.cross_validate(
-                items, chosen, self.folds, seed=self.seed, workers=workers, kept=kept
-            )
-            for name, items in sets.items()
-        }
-        if done := kept.said("detection"):
-            say(done)
-        failures = [failure for one in measured.values() for failure in one.failures]
-        if not any(found for one in measured.values() for found in one.results.values()):
-            return status_after(failures) or SOME_FAILED
-        self._write_results(measured)  # first: it took long, and what follows may fail
-        self._write_tables(self._tables(sets, measured, workers, kept))
+        with on_cluster(self.cluster, self.workers, self.out):
+            measured = {
+                name: evaluation.cross_validate(
+                    items, chosen, self.folds, seed=self.seed, workers=workers, kept=kept
+                )
+                for name, items in sets.items()
+            }
+            if done := kept.said("detection"):
+                say(done)
+            failures = [failure for one in measured.values() for failure in one.failures]
+            if not any(found for one in measured.values() for found in one.results.values()):
+                return status_after(failures) or SOME_FAILED
+            self._write_results(measured)  # first: it took long, and what follows may fail
+            studies = self._studies(sets, workers, kept)
+        self._write_tables(self._tables(sets, measured, studies))
         kept.remove()
         return status_after(failures)
+
+    def _studies(
+        self, sets: Mapping[str, Sequence[DatasetItem]], workers: int, kept: Kept
+    ) -> list[Table]:
+        if self.no_studies:
+            return []
+        say("filter sizes and training sets ...")
+        return [
+            evaluation.table_3(sets, self.folds, self.seed, workers, kept),
+            evaluation.table_4(sets, self.seed, workers, kept),
+        ]
 
     def _tables(
         self,
         sets: Mapping[str, Sequence[DatasetItem]],
         measured: Mapping[str, Evaluation],
-        workers: int,
-        kept: Kept,
+        studies: Sequence[Table],
     ) -> list[Table]:
-        studies = []
-        if not self.no_studies:
-            say("filter sizes and training sets ...")
-            studies = [
-                evaluation.table_3(sets, self.folds, self.seed, workers, kept),
-                evaluation.table_4(sets, self.seed, workers, kept),
-            ]
         say("times ...")
         name, found = max(measured.items(), key=lambda one: len(one[1].methods))
         tested = {one.name for results in found.results.values() for one in results}

@@ -12,7 +12,6 @@ from skyline_viz import evaluation
 from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.command_line.inputs import output_folder, with_truth
 from skyline_viz.command_line.messages import (
-    GOOD,
     UsageError,
     counted,
     status_after,
@@ -257,18 +256,21 @@ class Train:
             raise UsageError(f"--cluster is for our filters and sky models, not {self.method}.")
         items = [item for one in sets.values() for item in one]
         dataset = ", ".join(sets)
-        foresee(items)
+        workers = foresee(items, self.workers)
         if self.pretrained is not None:
             method = self._pretrained(method)
         if not isinstance(method, Learner):
             raise UsageError(f"the method {self.method} has nothing to learn.")
+        good, failures = evaluation.readable(items, workers=workers)
+        if not (items := [*good.values()]):
+            return status_after(failures)
         fitted = method.fit(items, self.seed)
         seen = tuple(evaluation.fingerprints(items).values())
         trained = Trained(dataset, len(items), self.seed, seen)
         save_method(fitted, self.out, trained)
         tell(f"{method.name}, trained on {counted(len(items), 'photo')} of {dataset}")
         tell_done(f"written  {self.out}, {self.out.stat().st_size:,} bytes")
-        return GOOD
+        return status_after(failures)
 
 
 def save_trained(

@@ -43,6 +43,7 @@ from .terminal import methods_table as methods_table
 from .terminal import summary_table as summary_table
 from .terminal import worst_table as worst_table
 from .timing import time_methods as time_methods
+from .training_runs import readable as readable
 from .training_runs import train_on as train_on
 from .training_runs import train_on_several as train_on_several
 from .training_runs import train_sizes as train_sizes

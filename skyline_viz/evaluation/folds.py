@@ -10,7 +10,8 @@ from operator import add
 from pathlib import Path
 from typing import Any
 
-from skyline_viz.datasets.item import Item, photo_and_truth
+from skyline_viz.datasets.item import Item
+from skyline_viz.evaluation.training_runs import readable
 from skyline_viz.method import AddingLearner, Learner, Method, MethodError
 from skyline_viz.methods.registry import load_method, save_method
 from skyline_viz.running.batch import Failure, run, sentence
@@ -129,14 +130,8 @@ class Folds:
     @cached_property
     def _readable(self) -> tuple[dict[int, Item], tuple[Failure, ...]]:
         """Photos by place that can be learned from; one that cannot must not spoil a fold."""
-        outcomes = list(run(_read, self.items, workers=self.workers, title="reading"))
-        unusable = tuple(one for one in outcomes if isinstance(one, Failure))
-        usable = {
-            index: self.items[index]
-            for index, one in enumerate(outcomes)
-            if not isinstance(one, Failure)
-        }
-        return usable, unusable
+        usable, unusable = readable(self.items, workers=self.workers)
+        return usable, tuple(unusable)
 
     def _key(self, method: Learner) -> str:
         """Digest of all that the folds are learned from; nothing where nothing is kept."""
@@ -205,12 +200,6 @@ def _from_sums(method: AddingLearner[Any], sums: list[Any], seed: int) -> Learne
     if not sums:
         raise ValueError("training needs at least one photo with a true skyline")
     return method.from_sums(reduce(add, sums), seed)
-
-
-def _read(item: Item) -> bool:
-    """Read a photo and its truth; raises what is wrong with them."""
-    photo_and_truth(item)
-    return True
 
 
 def _content(item: Item) -> str:

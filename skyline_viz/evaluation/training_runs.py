@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import TypeVar
 
 from skyline_viz.config import FILTER_SIZES, TrainingConfig
-from skyline_viz.datasets.item import Item
+from skyline_viz.datasets.item import Item, photo_and_truth
 from skyline_viz.filter_bank import FilterBank
-from skyline_viz.running.batch import Failure
+from skyline_viz.running.batch import Failure, run
 from skyline_viz.running.sums import sums_of
 from skyline_viz.system.fingerprints import telling
 from skyline_viz.training import GramMatrices, gather_item, solve, together
+
+AnyItem = TypeVar("AnyItem", bound=Item)
 
 
 def train_on(
@@ -123,6 +126,33 @@ def train_sizes(
         for size in FILTER_SIZES
     ]
     return banks, failures
+
+
+def readable(
+    items: Sequence[AnyItem], *, workers: int = 1
+) -> tuple[dict[int, AnyItem], list[Failure]]:
+    """Read all photos and their truths: one that cannot be read must not spoil a training.
+
+    Args:
+        items: The photos.
+        workers: Number of processes, see `batch.run`.
+
+    Returns:
+        Those that can be read, by their places, and the others with what is wrong with them.
+    """
+    good: dict[int, AnyItem] = {}
+    bad: list[Failure] = []
+    for index, outcome in enumerate(run(_read, items, workers=workers, title="reading")):
+        if isinstance(outcome, Failure):
+            bad.append(outcome)
+        else:
+            good[index] = items[index]
+    return good, bad
+
+
+def _read(item: Item) -> bool:
+    photo_and_truth(item)
+    return True
 
 
 def _gather_all(

@@ -73,6 +73,11 @@ def file_system(address: str) -> tuple[Any, str]:
         if "rotocol not known" in str(error):
             unknown = f"{address} cannot be read: nothing knows {scheme(address)}."
             raise StorageError(unknown) from error
+        if "range requests" in str(error):
+            raise StorageError(
+                f"{address} cannot be read: the server gives whole files alone; download the "
+                f"archive first."
+            ) from error
         raise StorageError(f"{address} is no address of photos: {plain(error)}.") from error
     except IsADirectoryError as error:  # what an archive without a file is taken for
         kind = scheme(address)

@@ -4,6 +4,10 @@ A data set is told by the names and headers of all its files, photos and truths 
 have to be at hand. A copy lies in the folder of caches, ``SKYLINE_VIZ_CACHE`` or the user's. What a
 storage says is as it was is not downloaded again, and what is gone there goes here. Where the disk
 would not hold it nothing is copied. Copies that nobody has used for a month go.
+
+A file that cannot be had does not cost the others. In its place lies one that holds nothing, so
+that photo and truth still find each other by their names; `lost_in` says why. Where most files are
+lost, or downloads break off one after the other, there is an outage, and the copy is refused.
 """
 
 from __future__ import annotations
@@ -14,69 +18,163 @@ import os
 import shutil
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path, PurePosixPath
+from typing import Any, Protocol, Self
 
 from skyline_viz.files import make_folder, replacing, write_text
-from skyline_viz.storage.addresses import StorageError
-from skyline_viz.storage.fetching import fetch
+from skyline_viz.storage.addresses import StorageError, scheme
+from skyline_viz.storage.copy_names import name_of, remember
+from skyline_viz.storage.fetching import OutageError, fetch
 from skyline_viz.storage.listing import Listed, files_at, is_photo
+from skyline_viz.system.memory import in_words
 
 CACHE = "SKYLINE_VIZ_CACHE"
 """Variable of the environment that names the folder of caches."""
 
 _STATE = ".copied.json"  # hidden, so that no data set holds it
 _THREADS = 8  # downloads at a time
+_BROKEN_OFF = 2 * _THREADS  # downloads one after the other that are an outage
 _KEPT = 30 * 86400.0  # seconds that an unused copy stays
 _MOST_OF_DISK = 0.9  # of what is free
+_WEB = ("http://", "https://")  # where nothing but its name tells a file from a folder
+_WEB_FILES = (".csv", ".json", ".jsonl", ".parquet", ".xml")
+_NOTHING = {".csv": "column,row,visible\n", ".json": '{"format": "skyline"}'}
+"""Lines of skylines without a column: by how they begin these are told from other texts."""
 
 
-def copied(address: str) -> Path:
-    """The folder of this machine that holds what is below an address; or the file of one photo.
+class Bar(Protocol):
+    """What shows how far a copy is."""
+
+    def __enter__(self) -> Self:
+        """Begin."""
+
+    def __exit__(self, *_: object) -> None:
+        """End."""
+
+    def advance(self, what: str = "") -> None:
+        """Count one more file."""
+
+
+def copied(address: str, bar: Callable[[int, str], Bar] | None = None) -> Path:
+    """The folder of this machine that holds what is below an address; or one file.
 
     Args:
-        address: A folder, a prefix, an archive or a photo.
+        address: A folder, a prefix, an archive or a file.
+        bar: Makes what shows the progress, of a number of files and a title.
 
     Raises:
-        StorageError: It is missing or empty, one of its files cannot be had, or the disk is small.
+        StorageError: It is missing or empty, a single file or most of many cannot be had, or the
+            disk is small.
         OSError: It cannot be written.
     """
-    inner, _, around = address.partition("::")
-    name = PurePosixPath(inner.partition("?")[0]).name
-    name = name if inner.partition("//")[2] else PurePosixPath(around).stem
     home = caches() / hashlib.sha256(address.encode()).hexdigest()[:16]
-    target = home / (name or "photos")
-    if is_photo(inner):
+    target = home / name_of(address)
+    remember(target, address)
+    if _is_file(address.partition("::")[0]):
         _write(target, Listed(address))
         return target
     files = dict(files_at(address))
     if not files:
         raise StorageError(f"{address} holds no file.")
+    if alone := files.get(""):
+        _write(target, alone)
+        return target
     if odd := [one for one in files if _leads_out(one)]:
         raise StorageError(f"{address} holds {odd[0]}, which is no name of a file here.")
     _forget_old(home)
-    _bring_up_to_date(target, files, address)
+    _bring_up_to_date(target, files, address, bar)
     return target
 
 
-def _bring_up_to_date(target: Path, files: dict[str, Listed], address: str) -> None:
-    known = _read_state(target)
-    news = [
-        (target / own, one)
+def lost_in(folder: Path) -> dict[Path, str]:
+    """The files of a copy that could not be had, each with the reason, in a sentence.
+
+    Any other folder has none.
+    """
+    return {folder / own: reason for own, reason in _read_state(folder, "lost").items()}
+
+
+def _bring_up_to_date(
+    target: Path,
+    files: Mapping[str, Listed],
+    address: str,
+    bar: Callable[[int, str], Bar] | None,
+) -> None:
+    known = _read_state(target, "stamps")
+    news = {
+        own: one
         for own, one in files.items()
         if not one.stamp or known.get(own) != one.stamp or not (target / own).is_file()
-    ]
+    }
     make_folder(target)
-    check_room(sum(one.size or 0 for _, one in news), address)
-    _write_state(target, {own: one for own, one in known.items() if own in files})
-    with ThreadPoolExecutor(_THREADS) as threads:
-        for _ in threads.map(_write, *zip(*news, strict=True)) if news else ():
-            pass
+    size = sum(one.size or 0 for one in news.values())
+    check_room(size, address)
+    _write_state(target, {own: one for own, one in known.items() if own in files}, {})
+    title = f"copying {in_words(size)}" if size else "copying"
+    with (bar or _Silent)(len(news), title) as shown:
+        lost = _download(target, news, len(files), address, shown)
+    for own in lost:
+        write_text(target / own, _NOTHING.get(PurePosixPath(own).suffix.lower(), ""))
     for path in target.rglob("*"):
         own = path.relative_to(target).as_posix()
         if path.is_file() and own not in files and own != _STATE:
             path.unlink(missing_ok=True)
-    _write_state(target, {own: one.stamp for own, one in files.items()})
+    _write_state(target, {own: one.stamp for own, one in files.items() if own not in lost}, lost)
+
+
+def _download(
+    target: Path, news: Mapping[str, Listed], whole: int, address: str, bar: Bar
+) -> dict[str, str]:
+    """Download files; return those that cannot be had, with the reasons.
+
+    Raises:
+        StorageError: There is an outage, or most files are lost.
+    """
+    lost: dict[str, str] = {}
+    broken_off = 0
+    threads = ThreadPoolExecutor(_THREADS)
+    try:
+        waiting = {threads.submit(_write, target / own, one): own for own, one in news.items()}
+        for done in as_completed(waiting):
+            try:
+                done.result()
+                broken_off = 0
+            except StorageError as error:
+                lost[waiting[done]] = str(error)
+                broken_off += isinstance(error, OutageError)
+                if broken_off == _BROKEN_OFF or 2 * len(lost) > whole:
+                    raise StorageError(
+                        f"{address} cannot be copied: {len(lost)} of its {whole} files could not "
+                        f"be had, the last of them because {error}"
+                    ) from error
+            bar.advance(waiting[done])
+    finally:
+        threads.shutdown(cancel_futures=True)
+    return lost
+
+
+class _Silent:
+    """Shows nothing."""
+
+    def __init__(self, total: int, title: str) -> None:
+        pass
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def advance(self, what: str = "") -> None:
+        pass
+
+
+def _is_file(inner: str) -> bool:
+    """Whether an address is told to be a file by its name, so that nothing is asked about it."""
+    ending = PurePosixPath(inner.partition("?")[0]).suffix.lower()
+    return is_photo(inner) or (scheme(inner) in _WEB and ending in _WEB_FILES)
 
 
 def _write(path: Path, one: Listed) -> None:
@@ -118,16 +216,17 @@ def check_room(size: int, what: str) -> None:
         )
 
 
-def _read_state(target: Path) -> dict[str, str]:
+def _read_state(target: Path, part: str) -> dict[str, str]:
+    """The stamps of the files of a copy, or what is lost."""
     try:
-        told = json.loads((target / _STATE).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        told: Any = json.loads((target / _STATE).read_text(encoding="utf-8"))[part]
+    except (OSError, ValueError, LookupError, TypeError):
         return {}
     return told if isinstance(told, dict) else {}
 
 
-def _write_state(target: Path, stamps: dict[str, str]) -> None:
-    write_text(target / _STATE, json.dumps(stamps))
+def _write_state(target: Path, stamps: Mapping[str, str], lost: Mapping[str, str]) -> None:
+    write_text(target / _STATE, json.dumps({"stamps": stamps, "lost": lost}))
 
 
 def _forget_old(home: Path) -> None:

@@ -22,6 +22,11 @@ MOST_BYTES = 1_000_000_000
 
 _LASTING = (FileNotFoundError, PermissionError, IsADirectoryError, NotImplementedError)
 
+
+class OutageError(UnseenError):
+    """Each try failed, and nothing says that the file is not there."""
+
+
 pause = time.sleep
 """Waits so many seconds."""
 
@@ -34,7 +39,8 @@ def fetch(address: str, size: int | None = None) -> bytes:
         size: Its bytes, where a listing has told; a download of another length is a broken one.
 
     Raises:
-        StorageError: It is missing, may not be read or is too large, or each try failed.
+        OutageError: Each try failed.
+        StorageError: It is missing, may not be read or is too large.
     """
     found, path = file_system(address)
     if size is not None and size > MOST_BYTES:
@@ -52,4 +58,4 @@ def fetch(address: str, size: int | None = None) -> bytes:
                 raise error
         except Exception as error:  # each library has classes of its own
             last = plain(error)
-    raise UnseenError(f"{address} could not be downloaded in {TRIES} tries: {last}.")
+    raise OutageError(f"{address} could not be downloaded in {TRIES} tries: {last}.")

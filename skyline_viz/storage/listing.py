@@ -13,6 +13,8 @@ from skyline_viz.storage.addresses import StorageError, address_of, file_system,
 _STAMPS = ("ETag", "etag", "md5Hash", "crc32c", "content_md5", "md5", "CRC")
 """What storages tell of a file's content, without its being read."""
 
+_ARCHIVES = {"zip": (".zip",), "tar": (".tar", ".tar.gz", ".tgz")}
+
 
 @dataclass(frozen=True, slots=True)
 class Listed:
@@ -41,6 +43,7 @@ def photos_at(address: str) -> Iterator[Listed]:
     if is_photo(address.partition("::")[0]):
         yield Listed(address)
         return
+    _refuse_archive(address)
     some = False
     for name, about in files_below(found, path, address):
         if is_photo(name):
@@ -53,9 +56,12 @@ def photos_at(address: str) -> Iterator[Listed]:
 def files_at(address: str) -> Iterator[tuple[str, Listed]]:
     """All files below an address but for hidden ones, each with its path from there.
 
+    A file itself has an empty path.
+
     Raises:
         StorageError: It is missing, or cannot be listed.
     """
+    _refuse_archive(address)
     found, path = file_system(address)
     for name, about in files_below(found, path, address):
         own = name.strip("/").removeprefix(path.strip("/")).strip("/")
@@ -64,6 +70,8 @@ def files_at(address: str) -> Iterator[tuple[str, Listed]]:
 
 def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapping[str, Any]]]:  # noqa: ANN401
     """Names of all files below a path but for hidden ones, and what the storage says of each.
+
+    Listed alone, a file is below itself; an empty one is what some storages put for a folder.
 
     Raises:
         StorageError: It is missing, or cannot be listed.
@@ -77,13 +85,27 @@ def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapp
         deeper = []
         for about in inside:
             name = str(about["name"]).rstrip("/")
-            if name.strip("/") == place.strip("/") or _is_hidden(name):
+            itself = name.strip("/") == place.strip("/")
+            alone = about["type"] == "file" and len(inside) == 1 and about.get("size")
+            if _is_hidden(name) or (itself and not alone):
                 continue
             if about["type"] == "directory":
                 deeper.append(name)
             else:
                 yield name, about
         folders += reversed(deeper)
+
+
+def _refuse_archive(address: str) -> None:
+    """Say how an archive is named where it is named as a file.
+
+    Raises:
+        StorageError: It is.
+    """
+    last = address.partition("::")[0].partition("?")[0].lower()
+    kind = next((kind for kind, endings in _ARCHIVES.items() if last.endswith(endings)), None)
+    if kind:
+        raise StorageError(f"{address} is an archive; what is in it is {kind}://::{address}.")
 
 
 def _is_hidden(name: str) -> bool:

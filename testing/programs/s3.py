@@ -20,6 +20,8 @@ class Moods:
         """Downloads that are refused from now on, as one that throttles does."""
         self.torn = 0
         """Downloads from now on of which the second half does not come."""
+        self.forbidden = set()
+        """Keys that may not be downloaded."""
         self.downloads = []
         """Keys that were downloaded, or tried."""
         self.requests = 0
@@ -32,6 +34,9 @@ class Moods:
         if not download:
             return self.application(environ, start_response)
         self.downloads.append(path.split("/", 2)[2])
+        if self.downloads[-1] in self.forbidden:
+            start_response("403 Forbidden", [("Content-Type", "application/xml")])
+            return [b"<Error><Code>AccessDenied</Code><Message>Access Denied.</Message></Error>"]
         if self.busy:
             self.busy -= 1
             start_response("503 Slow Down", [("Content-Type", "application/xml")])

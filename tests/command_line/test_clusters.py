@@ -39,6 +39,42 @@ def test_a_gallery_is_the_same_on_a_cluster(say, hills, tmp_path):
     assert names[0] == names[1] != []
 
 
+def test_detect_writes_the_same_files_from_a_cluster(say, hills, tmp_path):
+    words = ("detect", hills, "--mask", "--overlay", "--out")
+    assert say(*words, "here")[0] == 0
+    assert say(*words, "there", "--cluster", "local:2")[0] == 0
+    here, there = (
+        {path.name: path.read_bytes() for path in tmp_path.glob(f"{one}/p*")} for one in HERE
+    )
+    assert len(here) == 12
+    assert here == there
+    rows = [_read(f"{one}/skylines.csv").splitlines() for one in HERE]
+    assert [row.split(",")[:8] for row in rows[0]] == [row.split(",")[:8] for row in rows[1]]
+    assert json.loads(_read("there/run.json"))["options"]["cluster"] == "local:2"
+
+
+def test_detect_names_bad_photos_of_a_cluster(say, hills, tmp_path):
+    (tmp_path / "empty.png").touch()
+    photo = next((hills / "images").iterdir())
+    words = ("empty.png", "gone.png", photo, "--out", "out", "--cluster", "local:1")
+    status, out, err = say("detect", *words)
+    assert status == 1
+    assert f"out/{photo.stem}.csv" in out
+    assert err.splitlines()[-3:] == [
+        "skyline-viz: 2 photos failed:",
+        "skyline-viz: empty.png is empty (0 bytes).",
+        "skyline-viz: gone.png cannot be read: no such file or directory.",
+    ]
+
+
+def test_tables_are_the_same_from_a_cluster(say, hills, tmp_path):
+    for out, more in (("here", ()), ("there", ("--cluster", "local:2"))):
+        assert say("tables", hills, "--method", "default", "--out", out, *more)[0] == 0
+    tables = [_read(f"{one}/tables.md").partition("Table VI")[0] for one in HERE]
+    assert tables[0] == tables[1]
+    assert "Table III" in tables[0]
+
+
 def test_a_folder_that_workers_do_not_see_is_refused(tmp_path):
     class Blind:
         def run(self, function, file):

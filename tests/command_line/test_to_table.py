@@ -95,7 +95,7 @@ def test_a_cluster_finds_the_same(say, hills, tmp_path):
     ("words", "said"),
     [
         (("--out", "d", "--shard", "1/2"), "--shard writes one table"),
-        (("--out", "d", "--cluster", "local:2"), "--cluster writes one table"),
+        (("--out", "d", "--cluster", "local:2", "--workers", "2"), "--workers are processes"),
         (("--out", "t.parquet", "--mask"), "--mask writes files into a folder"),
         (("--out", "t.parquet", "--shard", "3/2"), "--shard is I/N"),
         (("--out", "t.parquet", "--cluster", "here"), "a cluster is tcp://HOST:PORT"),

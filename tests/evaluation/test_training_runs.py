@@ -5,7 +5,13 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.config import FILTER_SIZES, TrainingConfig
-from skyline_viz.evaluation.training_runs import train_on, train_on_several, train_sizes
+from skyline_viz.evaluation.training_runs import (
+    readable,
+    train_on,
+    train_on_several,
+    train_sizes,
+)
+from skyline_viz.running.batch import Failure
 from skyline_viz.training import GramMatrices, gather_item, solve, together
 
 
@@ -63,3 +69,12 @@ def test_banks_of_all_sizes_are_those_trained_one_by_one(items, tmp_path):
         alone, _ = train_on(items, TrainingConfig(filter_size=bank.size), dataset="hills")
         assert np.array_equal(bank.filters, alone.filters)
         assert bank.provenance == alone.provenance
+
+
+def test_photos_that_cannot_be_read_are_put_aside():
+    scene = sv.render("desert", 1, 96, 64)
+    good = sv.LoadedItem("a", scene.photo, scene.truth)
+    bad = sv.LoadedItem("b", scene.photo)
+    found, failures = readable([good, bad, good])
+    assert found == {0: good, 2: good}
+    assert failures == [Failure("b", "there is no truth")]

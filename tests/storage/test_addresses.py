@@ -1,6 +1,9 @@
 """Addresses: what is one, and the sentences about those that lead nowhere."""
 
 import sys
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from threading import Thread
 
 import fsspec.core
 import pytest
@@ -78,3 +81,14 @@ def test_words_of_libraries_are_left_out():
     error = RuntimeError("An error occurred (SlowDown) when calling the GetObject operation: Wait.")
     assert plain(error) == "SlowDown, Wait"
     assert addresses.plain(TimeoutError()) == "TimeoutError"
+
+
+def test_an_archive_on_a_server_that_gives_whole_files_is_to_be_downloaded(tmp_path):
+    (tmp_path / "a.zip").write_bytes(b"x" * 1000)
+    handler = partial(SimpleHTTPRequestHandler, directory=str(tmp_path))
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        Thread(target=server.serve_forever, daemon=True).start()
+        address = f"zip://::http://127.0.0.1:{server.server_port}/a.zip"
+        with pytest.raises(StorageError, match=r"whole files alone; download the archive first\.$"):
+            file_system(address)
+        server.shutdown()

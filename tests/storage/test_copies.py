@@ -8,7 +8,8 @@ import pytest
 
 from skyline_viz.storage import copies
 from skyline_viz.storage.addresses import StorageError
-from skyline_viz.storage.copies import CACHE, copied
+from skyline_viz.storage.copies import CACHE, copied, lost_in
+from skyline_viz.storage.fetching import OutageError
 
 
 @pytest.fixture(autouse=True)
@@ -42,6 +43,96 @@ def test_one_photo_is_a_file(memory):
     memory.pipe("/in/eiger.jpg", b"x")
     file = copied("memory://in/eiger.jpg")
     assert (file.name, file.read_bytes()) == ("eiger.jpg", b"x")
+
+
+@pytest.mark.parametrize("name", ["in/lines.csv", "in/lines.txt", "in/lines"])
+def test_one_file_of_another_kind_is_a_file_too(memory, name):
+    memory.pipe(f"/{name}", b"x")
+    file = copied(f"memory://{name}")
+    assert (f"in/{file.name}", file.read_bytes()) == (name, b"x")
+
+
+def test_one_file_of_a_bucket_is_told_from_a_folder_with_a_mark(s3):
+    files = fsspec.filesystem("s3")
+    files.pipe("photos/lines.csv", b"x")
+    files.pipe("photos/hills/", b"")
+    files.pipe("photos/hills/a.jpg", b"x")
+    files.pipe("photos/empty/", b"")
+    assert copied("s3://photos/lines.csv").read_bytes() == b"x"
+    assert held(copied("s3://photos/hills")) == {"a.jpg": b"x"}
+    with pytest.raises(StorageError, match=r"^s3://photos/empty holds no file\.$"):
+        copied("s3://photos/empty")
+
+
+def test_a_file_that_cannot_be_had_does_not_cost_the_others(s3):
+    files = fsspec.filesystem("s3")
+    for key in ("a.jpg", "b.jpg", "masks/a.csv"):
+        files.pipe(f"photos/hills/{key}", key.encode())
+    s3.forbidden = {"hills/a.jpg"}
+    folder = copied("s3://photos/hills")
+    assert held(folder) == {"a.jpg": b"", "b.jpg": b"b.jpg", "masks/a.csv": b"masks/a.csv"}
+    reason = "s3://photos/hills/a.jpg may not be read."
+    assert lost_in(folder) == {folder / "a.jpg": reason}
+    s3.forbidden = {"hills/masks/a.csv"}
+    s3.downloads.clear()
+    copied("s3://photos/hills")
+    assert s3.downloads == ["hills/a.jpg"]
+    assert lost_in(folder) == {}
+    assert held(folder)["a.jpg"] == b"a.jpg"
+
+
+def test_where_most_is_lost_the_copy_is_refused(s3):
+    files = fsspec.filesystem("s3")
+    for number in range(5):
+        files.pipe(f"photos/hills/{number}.jpg", b"x")
+    s3.forbidden = {f"hills/{number}.jpg" for number in range(3)}
+    with pytest.raises(StorageError, match=r"cannot be copied: 3 of its 5 files could not be had"):
+        copied("s3://photos/hills")
+    s3.forbidden = set(list(s3.forbidden)[:2])
+    assert len(lost_in(copied("s3://photos/hills"))) == 2
+
+
+def test_an_outage_half_way_is_refused_and_the_next_copy_goes_on(memory, monkeypatch):
+    names = [f"{number:02}.jpg" for number in range(60)]
+    for name in names:
+        memory.pipe(f"/in/{name}", b"x")
+    monkeypatch.setattr(copies, "_THREADS", 1)
+    fetch = copies.fetch
+
+    def broken(address, size):
+        if int(address[-6:-4]) >= 40:
+            raise OutageError(f"{address} could not be downloaded in 5 tries: too late.")
+        return fetch(address, size)
+
+    monkeypatch.setattr(copies, "fetch", broken)
+    with pytest.raises(StorageError, match=r"16 of its 60 files .* in 5 tries: too late\.$"):
+        copied("memory://in")
+    monkeypatch.setattr(copies, "fetch", fetch)
+    assert len(held(copied("memory://in"))) == 60
+
+
+def test_a_bar_counts_what_is_downloaded(memory):
+    shown = []
+
+    class Bar:
+        def __init__(self, total, title):
+            shown.append((total, title))
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            shown.append("end")
+
+        def advance(self, what=""):
+            shown.append(what)
+
+    memory.pipe("/in/a.jpg", b"x" * 2_000_000)
+    memory.pipe("/in/b.jpg", b"x" * 1_000_000)
+    copied("memory://in", Bar)
+    assert shown[0] == (2, "copying 3 MB")
+    assert sorted(shown[1:-1]) == ["a.jpg", "b.jpg"]
+    assert shown[-1] == "end"
 
 
 def test_what_does_not_fit_is_not_copied(memory, monkeypatch):

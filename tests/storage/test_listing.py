@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from skyline_viz.storage.addresses import StorageError
 from skyline_viz.storage.fetching import fetch
-from skyline_viz.storage.listing import Listed, photos_at
+from skyline_viz.storage.listing import Listed, files_at, photos_at
 
 KEYS = ["b.jpg", "a/z.PNG", "a/deep/er/x.tif", "a/note.txt", ".hidden.jpg", ".trash/y.jpg", "c.csv"]
 FOUND = ["b.jpg", "a/z.PNG", "a/deep/er/x.tif"]
@@ -75,3 +75,11 @@ def test_every_photo_is_listed_once_however_deep(keys):
     finally:
         files.store.clear()
         files.pseudo_dirs[:] = [""]
+
+
+@pytest.mark.parametrize("name", ["b/all.zip", "b/all.TAR.GZ"])
+def test_an_archive_is_told_how_it_is_named(name):
+    kind = "zip" if "zip" in name else "tar"
+    for listed in (photos_at, files_at):
+        with pytest.raises(StorageError, match=rf"is an archive; .* is {kind}://::s3://{name}\.$"):
+            next(listed(f"s3://{name}"))
