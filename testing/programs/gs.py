@@ -1,0 +1,21 @@
+"""A Google Cloud Storage on this machine."""
+
+from contextlib import contextmanager
+
+import gcsfs
+from gcp_storage_emulator.server import create_server
+
+
+@contextmanager
+def gs(monkeypatch):
+    """A storage with an empty bucket ``photos``, which the environment names."""
+    server = create_server("127.0.0.1", 0, in_memory=True, default_bucket="photos")
+    server.start()
+    try:
+        port = server._api._httpd.server_port  # the one that was free
+        monkeypatch.setenv("STORAGE_EMULATOR_HOST", f"http://127.0.0.1:{port}")
+        gcsfs.GCSFileSystem.clear_instance_cache()
+        yield
+    finally:
+        gcsfs.GCSFileSystem.clear_instance_cache()
+        server.stop()
