@@ -22,10 +22,14 @@ class Moods:
         """Downloads from now on of which the second half does not come."""
         self.downloads = []
         """Keys that were downloaded, or tried."""
+        self.questions = []
+        """Keys of which something was asked, without a download."""
 
     def __call__(self, environ, start_response):
         path = environ["PATH_INFO"]
         download = environ["REQUEST_METHOD"] == "GET" and path.count("/") > 1 and path[-1] != "/"
+        if environ["REQUEST_METHOD"] == "HEAD":
+            self.questions.append(path.split("/", 2)[-1])
         if not download:
             return self.application(environ, start_response)
         self.downloads.append(path.split("/", 2)[2])

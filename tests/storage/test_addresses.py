@@ -56,8 +56,7 @@ def test_what_is_not_installed_is_named_with_how_to_get_it(monkeypatch, kind, pa
     known = known_implementations[kind]
 
     def missing(*_):
-        module = known["class"].partition(".")[0]
-        raise ImportError(known["err"]) from ModuleNotFoundError(name=module)
+        raise ImportError(known["err"]) from ModuleNotFoundError(name=kind)
 
     monkeypatch.setattr(fsspec.core, "url_to_fs", missing)
     with pytest.raises(StorageError) as caught:

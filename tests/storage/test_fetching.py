@@ -16,9 +16,11 @@ def stored(s3):
     return s3
 
 
-def test_a_download_is_one_request(stored, pauses):
-    assert fetch(ADDRESS, len(DATA)) == DATA
-    assert (stored.downloads, pauses) == (["a/x.jpg"], [])
+@pytest.mark.parametrize("size", [len(DATA), None])
+def test_a_download_is_one_request(stored, pauses, size):
+    stored.questions.clear()
+    assert fetch(ADDRESS, size) == DATA
+    assert (stored.downloads, stored.questions, pauses) == (["a/x.jpg"], [], [])
 
 
 def test_a_storage_that_throttles_is_asked_again_after_longer_and_longer_pauses(stored, pauses):

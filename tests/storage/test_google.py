@@ -12,9 +12,22 @@ from testing.programs.gs import gs as started_gs
 
 
 @pytest.fixture
-def gs(monkeypatch):
-    with started_gs(monkeypatch):
-        yield fsspec.filesystem("gs")
+def asked(monkeypatch):
+    with started_gs(monkeypatch) as asked:
+        yield asked
+
+
+@pytest.fixture
+def gs(asked):
+    return fsspec.filesystem("gs")
+
+
+def test_a_download_is_one_request(gs, asked):
+    gs.pipe("photos/in/a.jpg", b"whole")
+    gs.invalidate_cache()
+    asked.clear()
+    assert fetch("gs://photos/in/a.jpg") == b"whole"
+    assert [method for method, _ in asked] == ["GET"]
 
 
 def test_photos_are_listed_with_size_and_stamp_and_fetched(gs):
