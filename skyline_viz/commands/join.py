@@ -21,6 +21,7 @@ class Join:
         skyline-viz join shards --out all.parquet
         skyline-viz join bank-shards --out bank.npz
         skyline-viz join . --out ../all.parquet
+        skyline-viz join s3://results/lines.parquet --out s3://results/all.parquet
     """
 
     folder: Annotated[
@@ -28,27 +29,35 @@ class Join:
     ]
     """Folder or address of all shards, the --out of the runs with --shard."""
 
-    out: Annotated[Path, tyro.conf.arg(metavar="FILE")]
-    """FILE.parquet for the table, or FILE.npz for the detector; what is there is replaced."""
+    out: Annotated[str, tyro.conf.arg(metavar="FILE")]
+    """FILE.parquet for the table, a path or an address; or FILE.npz for the detector, a path. What
+    is there is replaced."""
 
     def run(self) -> int:
         """Join the shards; return the exit status."""
-        from skyline_viz.running.line_table import SUFFIX
+        from skyline_viz.command_line.to_table import table_at
+        from skyline_viz.running.line_table import SUFFIX, TableError
         from skyline_viz.running.shards import join
+        from skyline_viz.storage.addresses import is_address
 
-        folder = local(self.folder)
+        remote, out, folder = is_address(self.out), Path(self.out), local(self.folder)
         if not folder.is_dir():
             raise UsageError(f"{self.folder} is no folder of shards.")
         if lost := lost_in(folder):
             raise UsageError(next(iter(lost.values())))
-        if self.out.suffix.lower() == ".npz" and not self.out.is_dir():
+        if out.suffix.lower() == ".npz" and not remote and not out.is_dir():
             return self._train(folder)
-        if self.out.suffix.lower() != SUFFIX or self.out.is_dir():
+        if out.suffix.lower() != SUFFIX or out.is_dir():
             raise UsageError(
                 f"name a file that ends in {SUFFIX} for a table, or in .npz for a detector, not "
                 f"{self.out}."
             )
-        tell(f"{counted(join(folder, self.out), 'photo')} in {self.out}")
+        with table_at(self.out, None) as table:
+            try:
+                photos = join(folder, table)
+            except TableError as error:  # of a copy, which nobody knows by its path
+                raise TableError(str(error).replace(str(folder), self.folder)) from error
+        tell(f"{counted(photos, 'photo')} in {self.out}")
         return GOOD
 
     def _train(self, folder: Path) -> int:
@@ -64,5 +73,5 @@ class Join:
         if not isinstance(method, Detector):
             raise UsageError(f"the shards of {self.folder} are of no detector of ours.")
         bank = solve_several(found.sets, found.training, found.seed)
-        save_trained(self.out, method, bank, found.photos, found.training)
+        save_trained(Path(self.out), method, bank, found.photos, found.training)
         return GOOD

@@ -18,8 +18,18 @@ EXTRA = "cluster"
 """The extra that brings the libraries."""
 
 _SCHEME = re.compile(r"([a-z][a-z0-9+.-]+)(://|::)", re.ASCII)
-_S3 = {"s3": {"max_concurrency": 1}}  # else it asks how large a file is before it downloads it
 _OURS = ("aiohttp", "gcsfs", "s3fs")
+_NAMED = re.compile(r"[Ii]nstall (?:the )?['\"]?([\w-]+)|requires \"([\w-]+)\"")
+_OTHERWISE = {"libarchive": "libarchive-c"}  # packages that are not called like their module
+_LASTING = (
+    FileNotFoundError,
+    IsADirectoryError,
+    NotADirectoryError,
+    NotImplementedError,
+    PermissionError,
+)
+_GONE, _FORBIDDEN = (404, 410), (401, 403)  # statuses of HTTP
+_PASSING = (408, 425, 429)  # of those that blame the one who asks
 
 
 class StorageError(ValueError):
@@ -65,8 +75,10 @@ def file_system(address: str) -> tuple[Any, str]:
         StorageError: Nothing knows the scheme, or what knows it is not installed.
     """
     fsspec = needed("fsspec.core", scheme(address))
+    # Else gcsfs asks in another protocol what kind of bucket it is, which has a minute to answer.
+    os.environ.setdefault("GCSFS_EXPERIMENTAL_ZB_HNS_SUPPORT", "false")
     try:
-        found, path = fsspec.url_to_fs(address, **(_S3 if "s3://" in address else {}))
+        found, path = fsspec.url_to_fs(address)
     except ImportError as error:
         raise StorageError(f"{address} needs {_installed(error)}") from error
     except ValueError as error:
@@ -79,6 +91,10 @@ def file_system(address: str) -> tuple[Any, str]:
                 f"archive first."
             ) from error
         raise StorageError(f"{address} is no address of photos: {plain(error)}.") from error
+    except TypeError as error:  # its library wants arguments
+        raise StorageError(
+            f"{address} cannot be read: {scheme(address)} needs more than an address."
+        ) from error
     except IsADirectoryError as error:  # what an archive without a file is taken for
         kind = scheme(address)
         raise StorageError(
@@ -115,31 +131,56 @@ def address_of(found: Any, path: str, below: str) -> str:  # noqa: ANN401 - file
 
 
 @contextmanager
-def naming(address: str) -> Iterator[None]:
-    """Turn whatever a storage raises into a sentence about an address."""
+def naming(address: str, done: str = "read") -> Iterator[None]:
+    """Turn whatever a storage raises into a sentence about an address, and what was to be done."""
     try:
         yield
     except StorageError:
         raise
-    except FileNotFoundError as error:
-        raise StorageError(f"{address} does not exist.") from error
-    except PermissionError as error:
-        raise UnseenError(f"{address} may not be read.") from error
     except Exception as error:  # each library has classes of its own
-        raise UnseenError(f"{address} cannot be read: {plain(error)}.") from error
+        status = _status(error)
+        if isinstance(error, FileNotFoundError) or status in _GONE:
+            raise StorageError(f"{address} does not exist.") from error
+        if isinstance(error, PermissionError) or status in _FORBIDDEN:
+            raise UnseenError(f"{address} may not be {done}.") from error
+        raise UnseenError(f"{address} cannot be {done}: {plain(error)}.") from error
+
+
+def lasts(error: Exception) -> bool:
+    """Whether a storage will say the same when it is asked again."""
+    if isinstance(error, _LASTING) or "Credentials" in type(error).__name__:
+        return True
+    status = _status(error)
+    return 400 <= status < 500 and status not in _PASSING
 
 
 def plain(error: BaseException) -> str:
     """What a library said, on one line, short and without its names for things."""
-    text = " ".join(str(error).split()) or type(error).__name__
+    said = str(error)
+    if type(error).__name__ == "TooManyRedirects":
+        said = "it leads from place to place"
+    elif isinstance(getattr(error, "status", None), int):
+        said = f"{_status(error)} {getattr(error, 'message', '')}"
+    text = " ".join(said.split()) or type(error).__name__
     text = re.sub(r"^An error occurred \((\w+)\).*?: *", r"\1, ", text)
+    text = re.sub(r"<\w+: \d+, message='(.*?)'>", r"\1", text)
+    text = re.sub(r" ssl:\S+ \[(.*)\]$", r", \1", text)
     return text.rstrip(". ")[:200]
+
+
+def _status(error: BaseException) -> int:
+    """The status of HTTP that a library tells of, each in its way, or 0."""
+    told = getattr(error, "status" if hasattr(error, "status") else "code", None)
+    if isinstance(told, int):
+        return told
+    return 403 if str(error).startswith("Forbidden") else 0
 
 
 def _installed(error: ImportError) -> str:
     """The package that is missing, which fsspec says in a sentence, and how to get it."""
-    said = re.search(r"[Ii]nstall (?:the )?[\"'`]?([\w-]+)", str(error))
-    package = said[1] if said else error.name or "a library"
+    said = _NAMED.search(str(error))
+    module = (said[1] or said[2]) if said else getattr(error.__cause__ or error, "name", None)
+    package = _OTHERWISE.get(module, module) if module else "a library that is not installed"
     ours = next((one for one in _OURS if one in str(error)), None)
     if ours:
         return f"{ours}; install it with: pip install 'skyline-viz[{EXTRA}]'"

@@ -5,10 +5,12 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from skyline_viz.picture_files.kinds import PHOTO_SUFFIXES
-from skyline_viz.storage.addresses import StorageError, address_of, file_system, naming
+from skyline_viz.storage.addresses import StorageError, address_of, file_system
+from skyline_viz.storage.fetching import persistent
 
 _STAMPS = ("ETag", "etag", "md5Hash", "crc32c", "content_md5", "md5", "CRC")
 """What storages tell of a file's content, without its being read."""
@@ -48,7 +50,7 @@ def photos_at(address: str) -> Iterator[Listed]:
     for name, about in files_below(found, path, address):
         if is_photo(name):
             some = True
-            yield Listed(address_of(found, name, address), _size(about), _stamp(about))
+            yield Listed(address_of(found, name, address), _size(about), stamp_of(about))
     if not some:
         raise StorageError(f"{address} holds no photograph.")
 
@@ -65,7 +67,7 @@ def files_at(address: str) -> Iterator[tuple[str, Listed]]:
     found, path = file_system(address)
     for name, about in files_below(found, path, address):
         own = name.strip("/").removeprefix(path.strip("/")).strip("/")
-        yield own, Listed(address_of(found, name, address), _size(about), _stamp(about))
+        yield own, Listed(address_of(found, name, address), _size(about), stamp_of(about))
 
 
 def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapping[str, Any]]]:  # noqa: ANN401
@@ -80,8 +82,9 @@ def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapp
     folders = [path]
     while folders:
         place = folders.pop()
-        with naming(address):  # not fsspec's walk, which passes over folders that may not be read
-            inside = sorted(found.ls(place, detail=True), key=lambda about: str(about["name"]))
+        # Not fsspec's walk, which passes over folders that may not be read.
+        listed = persistent(partial(found.ls, place, detail=True), address, "listed")
+        inside = sorted(listed, key=lambda about: str(about["name"]))
         deeper = []
         for about in inside:
             name = str(about["name"]).rstrip("/")
@@ -90,7 +93,7 @@ def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapp
             if _is_hidden(name) or (itself and not alone):
                 continue
             if about["type"] == "directory":
-                deeper.append(name)
+                deeper.append(str(about["name"]))  # web servers tell folders by the slash
             else:
                 yield name, about
         folders += reversed(deeper)
@@ -123,6 +126,6 @@ def _size(about: Mapping[str, object]) -> int | None:
     return size if isinstance(size, int) else None
 
 
-def _stamp(about: Mapping[str, object]) -> str:
+def stamp_of(about: Mapping[str, object]) -> str:
     """What is told of the content; an empty text rather than a time, which says little."""
     return next((f"{name} {about[name]}" for name in _STAMPS if about.get(name)), "")

@@ -1,17 +1,27 @@
-"""A file that is made on this machine and goes to an address when it is whole."""
+"""A file that is made on this machine and goes to an address when it is whole.
+
+What another run has put there in the meantime is not overwritten. Beside the file lies a note of
+what was at the address when it was begun. Storages have no lock, so that two runs that end within
+the same moment are not told apart.
+"""
 
 from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path, PurePosixPath
+from typing import Any
 
-from skyline_viz.files import make_folder, replacing
-from skyline_viz.storage import fetching
-from skyline_viz.storage.addresses import StorageError, file_system, naming, plain
+from skyline_viz.files import make_folder, replacing, write_text
+from skyline_viz.storage.addresses import StorageError, file_system
 from skyline_viz.storage.copies import caches
-from skyline_viz.storage.fetching import FIRST_PAUSE, TRIES
+from skyline_viz.storage.fetching import persistent
+from skyline_viz.storage.listing import stamp_of
+
+_CHANGED = ("LastModified", "updated", "last_modified", "mtime", "created")
+"""What storages tell of the time of a file's last change."""
 
 
 @contextmanager
@@ -21,29 +31,48 @@ def uploaded(address: str) -> Iterator[Path]:
     What is at the address already is there before the block; or what could not be uploaded.
 
     Raises:
-        StorageError: The address cannot be read, or not written; the file stays here then.
+        StorageError: The address cannot be read, or not written, or another run has written there
+            in the meantime; the file stays here then.
         OSError: The disk is full or read-only.
     """
     found, path = file_system(address)
     home = caches() / "tables" / hashlib.sha256(address.encode()).hexdigest()[:16]
     local = home / PurePosixPath(path).name
+    note = home / "there.txt"
     make_folder(home)
-    with naming(address):
-        found.invalidate_cache()
-        there = bool(found.exists(path))
-    if there and not local.exists():  # or it was not uploaded the last time
-        with replacing(local) as temporary, naming(address):
-            found.get_file(path, str(temporary))
+    there = _state(found, path, address)
+    if local.exists():  # it was not uploaded the last time
+        _check(there, note.read_text(encoding="utf-8") if note.exists() else "", address, local)
+    elif there:
+        with replacing(local) as temporary:
+            persistent(partial(found.get_file, path, str(temporary)), address, "downloaded")
+    write_text(note, there)
     yield local
-    last = ""
-    for number in range(TRIES):
-        if number:
-            fetching.pause(FIRST_PAUSE * 2 ** (number - 1))
-        try:
-            found.put_file(str(local), path)
-        except Exception as error:  # each library has classes of its own
-            last = plain(error)
-        else:
-            local.unlink()
-            return
-    raise StorageError(f"{address} cannot be written: {last}; what was found is in {local}.")
+    try:
+        _check(_state(found, path, address), there, address, local)
+        persistent(partial(found.put_file, str(local), path), address, "written")
+    except StorageError as error:
+        if str(local) in str(error):
+            raise
+        said = str(error).rstrip(".")
+        raise StorageError(f"{said}; what was found is in {local}.") from error
+    local.unlink()
+    note.unlink()
+
+
+def _state(found: Any, path: str, address: str) -> str:  # noqa: ANN401 - file systems have no types
+    """What tells the file at an address from another one; empty where there is none."""
+    found.invalidate_cache()
+    if not persistent(partial(found.exists, path), address, "read"):
+        return ""
+    about = persistent(partial(found.info, path), address, "read")
+    changed = next((about[name] for name in _CHANGED if about.get(name)), "")
+    return f"{stamp_of(about)} {about.get('size')} {changed}"
+
+
+def _check(there: str, before: str, address: str, local: Path) -> None:
+    if there and there != before:
+        raise StorageError(
+            f"{address} was written by another run in the meantime and stays; what this one found "
+            f"is in {local}, and one of the two has to move."
+        )

@@ -24,13 +24,14 @@ class Moods:
         """Keys that may not be downloaded."""
         self.downloads = []
         """Keys that were downloaded, or tried."""
-        self.requests = 0
-        """Requests of all kinds."""
+        self.questions = []
+        """Keys of which something was asked, without a download."""
 
     def __call__(self, environ, start_response):
         path = environ["PATH_INFO"]
-        self.requests += 1
         download = environ["REQUEST_METHOD"] == "GET" and path.count("/") > 1 and path[-1] != "/"
+        if environ["REQUEST_METHOD"] == "HEAD":
+            self.questions.append(path.split("/", 2)[-1])
         if not download:
             return self.application(environ, start_response)
         self.downloads.append(path.split("/", 2)[2])

@@ -1,9 +1,13 @@
 """``skyline-viz join``: what it refuses; that shards come together, `test_to_table` tells."""
 
+import fsspec
+import pyarrow.parquet as pq
 import pytest
 
-from skyline_viz.running.line_table import write_lines
+from skyline_viz.running.line_table import failed_row, write_lines
 from skyline_viz.running.shards import Shard
+from skyline_viz.storage.copies import CACHE
+from testing.programs.s3 import s3 as started_s3
 
 
 @pytest.mark.parametrize(
@@ -29,3 +33,44 @@ def test_a_missing_shard_is_named_and_nothing_is_written(say, tmp_path):
     status, _, err = say("join", "parts", "--out", "t.parquet")
     assert (status, err) == (2, "skyline-viz: parts lacks the shard 2/2.\n")
     assert not (tmp_path / "t.parquet").exists()
+
+
+@pytest.fixture
+def results(monkeypatch, tmp_path):
+    """A storage, and a table of a shard that is there, one of two."""
+    with started_s3(monkeypatch):
+        monkeypatch.setenv(CACHE, str(tmp_path / "caches"))
+        write_lines(tmp_path / "t.parquet", [failed_row(ODD[1], "so")], {"digest": "d"})
+        storage = fsspec.filesystem("s3")
+        storage.put(str(tmp_path / "t.parquet"), f"photos/t.parquet/{Shard(1, 2).file}")
+        yield storage
+
+
+ODD = {
+    shard: next(name for name in map(str, range(99)) if Shard(shard, 2).holds(name))
+    for shard in (1, 2)
+}
+
+
+def test_shards_of_a_storage_become_a_table_there(say, results, tmp_path):
+    write_lines(tmp_path / "u.parquet", [failed_row(ODD[2], "so")], {"digest": "d"})
+    results.put(str(tmp_path / "u.parquet"), f"photos/t.parquet/{Shard(2, 2).file}")
+    for out in ("s3://photos/all.parquet", "all.parquet"):
+        status, said, _ = say("join", "s3://photos/t.parquet", "--out", out)
+        assert (status, said) == (0, f"2 photos in {out}\n")
+    results.get("photos/all.parquet", str(tmp_path / "there.parquet"))
+    for table in ("there.parquet", "all.parquet"):
+        found = pq.read_table(tmp_path / table).column("photo").to_pylist()
+        assert found == [ODD[1], ODD[2]]
+
+
+def test_what_a_storage_lacks_is_named_by_its_address(say, results):
+    status, _, err = say("join", "s3://photos/t.parquet", "--out", "s3://photos/all.parquet")
+    assert (status, err) == (2, "skyline-viz: s3://photos/t.parquet lacks the shard 2/2.\n")
+    assert not results.exists("photos/all.parquet")
+
+
+def test_a_detector_goes_to_no_address(say, results):
+    status, _, err = say("join", "s3://photos/t.parquet", "--out", "s3://photos/bank.npz")
+    assert status == 2
+    assert "name a file that ends in .parquet for a table" in err

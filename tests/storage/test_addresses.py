@@ -7,9 +7,20 @@ from threading import Thread
 
 import fsspec.core
 import pytest
+from fsspec.registry import known_implementations
 
 from skyline_viz.storage import addresses
 from skyline_viz.storage.addresses import StorageError, file_system, is_address, naming, plain
+
+OURS = {"s3": "s3fs", "gs": "gcsfs", "gcs": "gcsfs", "https": "aiohttp"}
+OTHERS = {
+    "az": "adlfs",
+    "abfs": "adlfs",
+    "sftp": "paramiko",
+    "smb": "smbprotocol",
+    "webdav": "webdav4",
+    "libarchive": "libarchive-c",
+}
 
 
 @pytest.mark.parametrize(
@@ -37,23 +48,35 @@ def test_an_archive_without_a_file_is_explained():
         file_system("zip:///photos.zip")
 
 
-def test_what_is_not_installed_is_named_with_how_to_get_it(monkeypatch):
-    def missing(name):
-        raise ImportError("Install s3fs to access S3")
+@pytest.mark.parametrize(
+    ("kind", "package", "install"),
+    [
+        *((kind, name, "'skyline-viz[cluster]'") for kind, name in OURS.items()),
+        *((kind, name, name) for kind, name in OTHERS.items()),
+    ],
+)
+def test_what_is_not_installed_is_named_with_how_to_get_it(monkeypatch, kind, package, install):
+    known = known_implementations[kind]
 
-    monkeypatch.setattr(fsspec.core, "get_filesystem_class", missing, raising=False)
-    monkeypatch.setattr(fsspec.core, "filesystem", missing)
-    with pytest.raises(StorageError, match=r"needs s3fs; .*pip install 'skyline-viz\[cluster\]'"):
-        file_system("s3://photos")
-
-
-def test_a_library_outside_the_extra_is_named(monkeypatch):
     def missing(*_):
-        raise ImportError("Install adlfs to access Azure Datalake Gen2 and Azure Blob Storage")
+        raise ImportError(known["err"]) from ModuleNotFoundError(name=kind)
 
     monkeypatch.setattr(fsspec.core, "url_to_fs", missing)
-    with pytest.raises(StorageError, match=r"^abfs://a needs adlfs; .*: pip install adlfs$"):
-        file_system("abfs://a")
+    with pytest.raises(StorageError) as caught:
+        file_system(f"{kind}://photos")
+    said = f"{kind}://photos needs {package}; install it with: pip install {install}"
+    assert str(caught.value) == said
+
+
+def test_the_extra_brings_what_its_sentence_promises():
+    for kind in OURS:
+        assert fsspec.get_filesystem_class(kind)
+
+
+def test_a_storage_that_wants_more_than_an_address_is_said_to():
+    said = "^reference:// cannot be read: reference:// needs more than an address\\.$"
+    with pytest.raises(StorageError, match=said):
+        file_system("reference://")
 
 
 def test_without_fsspec_the_extra_is_named(monkeypatch):

@@ -47,6 +47,22 @@ def test_photos_of_an_archive_are_fetched_by_the_addresses_of_its_listing(tmp_pa
     assert all(one.stamp.startswith("CRC") for one in found)
 
 
+def test_an_archive_may_lie_in_a_storage(s3, tmp_path):
+    with zipfile.ZipFile(tmp_path / "all.zip", "w") as archive:
+        for key in KEYS:
+            archive.writestr(f"2026/july/{key}", key)
+    fsspec.filesystem("s3").put(str(tmp_path / "all.zip"), "photos/all.zip")
+    found = list(photos_at("zip://2026/july::s3://photos/all.zip"))
+    assert [one.address for one in found] == [
+        f"zip://2026/july/{key}::s3://photos/all.zip" for key in FOUND
+    ]
+    assert [fetch(one.address, one.size).decode() for one in found] == FOUND
+    fsspec.filesystem("s3").pipe("photos/odd.zip", b"no archive" * 100)
+    for name, said in [("gone.zip", "does not exist"), ("odd.zip", "cannot be read: File is not")]:
+        with pytest.raises(StorageError, match=rf"^zip://::s3://photos/{name} {said}"):
+            list(photos_at(f"zip://::s3://photos/{name}"))
+
+
 def test_an_address_of_a_photo_is_that_photo_and_nothing_is_asked():
     assert list(photos_at("https://nowhere.invalid/a.jpg?size=big")) == [
         Listed("https://nowhere.invalid/a.jpg?size=big")

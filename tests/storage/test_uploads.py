@@ -1,5 +1,6 @@
 """Files that go to an address when they are whole."""
 
+import fsspec
 import pytest
 
 from skyline_viz.storage.addresses import StorageError
@@ -39,9 +40,66 @@ def test_a_failed_upload_is_tried_again_and_loses_nothing(memory, monkeypatch, p
         patch.setattr(type(memory), "put_file", busy)
         with uploaded("memory://out/t.parquet") as file:
             file.write_bytes(b"one")
-    said = "memory://out/t.parquet cannot be written: slow down; what was found is in "
+    said = (
+        "memory://out/t.parquet could not be written in 5 tries: slow down; what was found is in "
+    )
     assert str(caught.value) == f"{said}{file}."
-    assert pauses == [0.5, 1.0, 2.0, 4.0]
+    assert len(pauses) == 4
     with uploaded("memory://out/t.parquet") as again:
         assert again.read_bytes() == b"one"
     assert memory.cat("/out/t.parquet") == b"one"
+
+
+ADDRESS = "s3://photos/out/t.parquet"
+STAYS = (
+    "^s3://photos/out/t.parquet was written by another run in the meantime and stays; what this "
+)
+
+
+@pytest.mark.parametrize("before", [None, b"old"])
+def test_what_another_run_wrote_in_the_meantime_stays(s3, before):
+    files = fsspec.filesystem("s3")
+    if before:
+        files.pipe(ADDRESS, before)
+    with pytest.raises(StorageError, match=STAYS) as caught, uploaded(ADDRESS) as file:
+        files.pipe(ADDRESS, b"its")  # as many bytes as there were
+        file.write_bytes(b"own")
+    assert str(file) in str(caught.value)
+    assert (files.cat(ADDRESS), file.read_bytes()) == (b"its", b"own")
+
+
+def test_it_stays_the_next_time_as_well_until_one_of_the_two_has_moved(s3):
+    files = fsspec.filesystem("s3")
+    with pytest.raises(StorageError, match=STAYS), uploaded(ADDRESS) as file:
+        files.pipe(ADDRESS, b"its")
+        file.write_bytes(b"own")
+    with pytest.raises(StorageError, match=STAYS), uploaded(ADDRESS):
+        raise AssertionError("nothing is begun")
+    files.mv(ADDRESS, ADDRESS + ".theirs")
+    with uploaded(ADDRESS) as again:
+        assert again.read_bytes() == b"own"
+    assert files.cat(ADDRESS) == b"own"
+
+
+def test_a_run_that_was_stopped_uploads_over_what_it_began_with(s3):
+    files = fsspec.filesystem("s3")
+    files.pipe(ADDRESS, b"old")
+    with pytest.raises(KeyboardInterrupt), uploaded(ADDRESS):
+        raise KeyboardInterrupt
+    with uploaded(ADDRESS) as file:
+        file.write_bytes(b"new")
+    assert files.cat(ADDRESS) == b"new"
+    assert [*file.parent.iterdir()] == []
+
+
+def test_where_nothing_may_be_written_it_is_said_at_once(memory, monkeypatch, pauses):
+    def forbidden(*_):
+        raise PermissionError(1, "no")
+
+    monkeypatch.setattr(type(memory), "put_file", forbidden)
+    with (
+        pytest.raises(StorageError, match=r"may not be written; what was found is in "),
+        uploaded("memory://out/t.parquet") as file,
+    ):
+        file.write_bytes(b"one")
+    assert pauses == []
