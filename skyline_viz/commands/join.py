@@ -36,7 +36,7 @@ class Join:
     def run(self) -> int:
         """Join the shards; return the exit status."""
         from skyline_viz.command_line.to_table import table_at
-        from skyline_viz.running.line_table import SUFFIX, TableError
+        from skyline_viz.running.line_table import SUFFIX
         from skyline_viz.running.shards import join
         from skyline_viz.storage.addresses import is_address
 
@@ -53,10 +53,7 @@ class Join:
                 f"{self.out}."
             )
         with table_at(self.out, None) as table:
-            try:
-                photos = join(folder, table)
-            except TableError as error:  # of a copy, which nobody knows by its path
-                raise TableError(str(error).replace(str(folder), self.folder)) from error
+            photos = join(folder, table)
         tell(f"{counted(photos, 'photo')} in {self.out}")
         return GOOD
 

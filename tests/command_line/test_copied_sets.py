@@ -58,8 +58,8 @@ def bucket(hills, monkeypatch, tmp_path):
         photo, truth = "hills/images/p1.png", "hills/masks/p2.csv"
         moods.forbidden = {photo, truth}
         moods.said = [
-            f"skyline-viz: s3://photos/{photo} may not be read.",
-            f"skyline-viz: s3://photos/{truth} may not be read.",
+            f"skyline-viz: s3://photos/{photo} may not be downloaded.",
+            f"skyline-viz: s3://photos/{truth} may not be downloaded.",
         ]
         yield moods
 

@@ -6,9 +6,8 @@ import fsspec
 import pytest
 
 import skyline_viz as sv
-from testing.datasets import put
+from testing.datasets import put, row_of, write_labels
 from testing.programs.commands import scene, write_scene
-from testing.tables import row_of, write_labels
 
 
 @pytest.fixture

@@ -11,8 +11,7 @@ from skyline_viz.datasets.label_table import names_of, open_label_table, place_o
 from skyline_viz.datasets.table_item import TableItem
 from skyline_viz.running.line_table import failed_row, found_row, write_lines
 from skyline_viz.storage.addresses import StorageError
-from testing.datasets import PHOTO, SKYLINE, put
-from testing.tables import row_of, write_labels
+from testing.datasets import PHOTO, SKYLINE, put, row_of, write_labels
 
 
 def test_photos_and_truths_are_those_of_its_rows(tmp_path):

@@ -4,8 +4,7 @@ import pytest
 
 from skyline_viz.datasets.dataset import DatasetError
 from skyline_viz.datasets.parquet_files import files_of, is_label_table, parquet
-from testing.datasets import SKYLINE
-from testing.tables import row_of, write_labels
+from testing.datasets import SKYLINE, row_of, write_labels
 
 
 @pytest.mark.parametrize("where", ["a.parquet", "A.PARQUET", "s3://b/a.parquet/", "x\\a.parquet\\"])

@@ -4,8 +4,19 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from testing.datasets import HEIGHT, MASK, PHOTO, ROWS, SKYLINE, WIDTH, ch1, put, web
-from testing.tables import row_of, write_labels
+from testing.datasets import (
+    HEIGHT,
+    MASK,
+    PHOTO,
+    ROWS,
+    SKYLINE,
+    WIDTH,
+    ch1,
+    put,
+    row_of,
+    web,
+    write_labels,
+)
 
 
 def plain(root, *names):

@@ -9,8 +9,7 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.datasets.table_item import row_group
-from testing.datasets import NOISE, PHOTO, SKYLINE, put
-from testing.tables import row_of, write_labels
+from testing.datasets import NOISE, PHOTO, SKYLINE, put, row_of, write_labels
 
 
 def table_of(tmp_path, *rows):

@@ -9,8 +9,10 @@ import pytest
 import yaml
 
 import skyline_viz as sv
+from annotate.formats import export_labels
 from skyline_viz.running.line_table import failed_row, found_row, write_lines
 from testing import ROOT
+from testing.exports import label, put
 from testing.programs.commands import scene
 
 PAGE = (ROOT / "docs" / "scale.md").read_text(encoding="utf-8")
@@ -30,7 +32,7 @@ def blocks(kind, holding):
 
 
 def readers():
-    (block,) = blocks("python", "read_parquet")
+    (block,) = blocks("python", "pandas.read_parquet")
     return {line.partition(".")[0]: line for line in block.splitlines()}
 
 
@@ -130,3 +132,15 @@ def test_the_job_of_kubernetes_covers_all_shards():
         words = said_by(script, JOB_COMPLETION_INDEX=str(index))
         assert after(words, "--shard") == f"{index + 1}/{count}"
         assert after(words, "--workers") == container["resources"]["requests"]["cpu"]
+
+
+def test_labels_are_led_to_a_storage_as_the_page_says(tmp_path):
+    put(tmp_path / "photos", "deep/a.png")
+    labels = [label(tmp_path / "photos", "deep/a.png")]
+    out = tmp_path / "skylines-parquet"
+    export_labels(labels, tmp_path / "photos", out, "parquet")
+    (block,) = blocks("python", "skylines-parquet")
+    code = f"import polars\n{block}"
+    subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True, timeout=120)
+    (item,) = sv.open_dataset(tmp_path / "alps.parquet")
+    assert (item.where, item.truth()) == ("s3://photos/alps/deep/a.png", labels[0].skyline)

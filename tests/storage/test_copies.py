@@ -71,7 +71,7 @@ def test_a_file_that_cannot_be_had_does_not_cost_the_others(s3):
     s3.forbidden = {"hills/a.jpg"}
     folder = copied("s3://photos/hills")
     assert held(folder) == {"a.jpg": b"", "b.jpg": b"b.jpg", "masks/a.csv": b"masks/a.csv"}
-    reason = "s3://photos/hills/a.jpg may not be read."
+    reason = "s3://photos/hills/a.jpg may not be downloaded."
     assert lost_in(folder) == {folder / "a.jpg": reason}
     s3.forbidden = {"hills/masks/a.csv"}
     s3.downloads.clear()

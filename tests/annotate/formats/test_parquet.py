@@ -6,8 +6,8 @@ import pytest
 import skyline_viz as sv
 from annotate.formats import FormatError, export_labels, import_labels
 from skyline_viz.photo import read_photo
+from testing.datasets import row_of, write_labels
 from testing.exports import HEIGHT, WIDTH, label, put, there_and_back
-from testing.tables import row_of, write_labels
 
 
 @pytest.fixture
