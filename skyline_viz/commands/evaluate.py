@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+import tyro
 
 from skyline_viz import evaluation, methods
 from skyline_viz.command_line.clusters import on_cluster
@@ -14,9 +16,11 @@ from skyline_viz.command_line.lines import (
     status_after_lines,
 )
 from skyline_viz.command_line.messages import (
+    GOOD,
     UsageError,
     counted,
     say,
+    status_after,
     tell,
     tell_done,
     tell_drawn,
@@ -24,6 +28,7 @@ from skyline_viz.command_line.messages import (
 from skyline_viz.command_line.on_truth import OnTruth
 from skyline_viz.command_line.reporting import ReportFile, check_report, report_data_set
 from skyline_viz.command_line.settings import OptionalFolder
+from skyline_viz.command_line.to_table import shard_of
 from skyline_viz.system.names import listed
 
 if TYPE_CHECKING:
@@ -36,6 +41,7 @@ if TYPE_CHECKING:
     from skyline_viz.method import Method
     from skyline_viz.running import Kept
     from skyline_viz.running.batch import Failure
+    from skyline_viz.running.shards import Shard
 
 
 @dataclass(frozen=True)
@@ -60,10 +66,19 @@ class Evaluate(OnTruth):
     report: ReportFile = None
     """Write a report to be mailed: one HTML file with figures, photos, causes and stages."""
 
+    shard: Annotated[str | None, tyro.conf.arg(metavar="I/N")] = None
+    """Do only this part of the photos, such as 3/8, and keep what they come to in --out, for
+    machines that share it; the same command without --shard sums up."""
+
     def run(self) -> int:
         """Evaluate all photos that have a truth; return the exit status."""
         check_report(self.report)
+        shard = shard_of(self.shard)
+        if shard is not None:
+            self._check_shard()
         dataset, items = self.open()
+        if shard is not None:
+            return self._keep_shard(shard, dataset, items)
         lines = open_lines(self.predictions, items, self.truths)
         if self.report and lines and not self.methods.given:
             raise UsageError(
@@ -72,6 +87,36 @@ class Evaluate(OnTruth):
         workers, kept = self.begin("evaluate", dataset, items, self.out)
         with on_cluster(self.cluster, self.workers, self.out):
             return self._work(dataset, items, lines, workers, kept)
+
+    def _check_shard(self) -> None:
+        """Refuse what is of all photos.
+
+        Raises:
+            UsageError: It is asked for.
+        """
+        if not self.out:
+            raise UsageError("--shard keeps what its photos come to in a folder: name it, --out.")
+        others = {
+            "--folds": self.folds.asked,
+            "--predictions": bool(self.predictions),
+            "--report": bool(self.report),
+        }
+        if asked := [option for option, given in others.items() if given]:
+            raise UsageError(f"{asked[0]} is of all photos, and --shard does a part of them.")
+
+    def _keep_shard(self, shard: Shard, dataset: Dataset, items: Sequence[DatasetItem]) -> int:
+        own = [one for one in items if shard.holds(one.name)]
+        if not own:
+            tell(f"the shard {shard} has no photo of {dataset.name}")
+            return GOOD
+        workers, kept = self.begin("evaluate", dataset, own, self.out)
+        with on_cluster(self.cluster, self.workers, self.out):
+            found = evaluation.evaluate(own, self.methods.chosen(), workers=workers, kept=kept)
+        done = max(len(results) for results in found.results.values())
+        tell(
+            f"{done} of {counted(len(items), 'photo')} of {dataset.name} are kept in {kept.folder}"
+        )
+        return status_after(found.failures)
 
     def _work(
         self,

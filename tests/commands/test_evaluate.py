@@ -109,3 +109,36 @@ def test_a_report_shows_the_first_method_and_tells_the_others(say, hills, tmp_pa
     text = (tmp_path / "r.html").read_text(encoding="utf-8")
     assert "Photos are shown as edges finds them." in text
     assert text.count("paper: A_err ") == 4
+
+
+def test_shards_do_the_photos_and_the_last_run_sums_up(say, hills, tmp_path):
+    say("evaluate", hills, "--out", "at_once")
+    told = [say("evaluate", hills, "--out", "parts", "--shard", f"{one}/3") for one in (1, 2, 3)]
+    assert [status for status, _, _ in told] == [0, 0, 0]
+    counts = [int(out.split()[0]) for _, out, _ in told if "are kept in" in out]
+    assert sum(counts) == 4
+    assert not (tmp_path / "parts" / "summary.json").exists()
+    status, _, err = say("evaluate", hills, "--out", "parts")
+    assert (status, "4 of 4 photos were done already." in err) == (0, True)
+    wanted, found = (
+        [line.split(",")[:6] for line in (tmp_path / one / "photos.csv").read_text().splitlines()]
+        for one in ("at_once", "parts")
+    )
+    assert wanted == found
+    assert not (tmp_path / "parts" / "unfinished").exists()
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ((), "--shard keeps what its photos come to in a folder: name it, --out."),
+        (("--out", "o", "--folds", "2"), "--folds is of all photos, and --shard does a part"),
+        (("--out", "o", "--report", "r.html"), "--report is of all photos"),
+        (("--out", "o", "--predictions", "p"), "--predictions is of all photos"),
+        (("--out", "o", "--shard", "3/2"), "--shard is I/N, from 1/N to N/N"),
+    ],
+)
+def test_a_shard_has_no_figures_of_all_photos(say, hills, more, said):
+    status, out, err = say("evaluate", hills, "--shard", "1/2", *more)
+    assert (status, out) == (2, "")
+    assert err.startswith(f"skyline-viz: {said}")
