@@ -20,7 +20,6 @@ class Join:
     Examples:
         skyline-viz join shards --out all.parquet
         skyline-viz join bank-shards --out bank.npz
-        skyline-viz join . --out ../all.parquet
         skyline-viz join s3://results/lines.parquet --out s3://results/all.parquet
     """
 
