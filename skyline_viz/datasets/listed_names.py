@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import groupby
-from pathlib import PurePosixPath
+from posixpath import splitext
 from typing import TypeVar
 
 from skyline_viz.datasets.matching import TRUTH_FOLDERS, is_truth_word
@@ -31,15 +31,20 @@ def told_apart(pictures: Iterable[tuple[str, Kept]]) -> Iterator[tuple[str, Kept
     >>> [(name, photo) for name, _, photo in found]
     [('a.jpg', True), ('a_gt.png', False), ('masks/b.png', False), ('tor_gt.jpg', True)]
     """
-    lone: set[PurePosixPath] = set()  # folders with a photo of GeoPose3K
-    for folder, group in groupby(pictures, lambda one: PurePosixPath(one[0]).parent):
-        inside = [(PurePosixPath(name), kept) for name, kept in group]
-        known = {name.stem for name, _ in inside}
+    lone: set[str] = set()  # folders with a photo of GeoPose3K
+    for folder, group in groupby(pictures, lambda one: one[0].rpartition("/")[0]):
+        inside = [*group]
+        known = {_stem(name) for name, _ in inside}
         if any(one.lower() == _PHOTO for one in known):
             lone.add(folder)
-        maps = folder.name.lower() in OF_ONE_PHOTO and folder.parent in lone
-        truths = maps or any(part.lower() in TRUTH_FOLDERS for part in folder.parts)
+        above, _, own = folder.rpartition("/")
+        maps = own.lower() in OF_ONE_PHOTO and above in lone
+        truths = maps or any(part in TRUTH_FOLDERS for part in folder.lower().split("/"))
         for name, kept in inside:
-            beside = is_truth_beside(name, known)
-            word = folder in lone and is_truth_word(name.stem)
-            yield str(name), kept, not (truths or beside or word)
+            beside = is_truth_beside(_stem(name), known)
+            word = folder in lone and is_truth_word(_stem(name))
+            yield name, kept, not (truths or beside or word)
+
+
+def _stem(name: str) -> str:
+    return splitext(name.rpartition("/")[2])[0]

@@ -15,7 +15,7 @@ import os
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path, PurePath
+from pathlib import Path
 
 from skyline_viz.datasets.image_folder import linked_truths
 from skyline_viz.datasets.matching import (
@@ -163,7 +163,7 @@ class Tree:
             named = {*self.linked.values()}
             known = {one.stem for one in pictures}
             for one in pictures:
-                truth = one in named or is_truth_beside(one, known)
+                truth = one in named or is_truth_beside(one.stem, known)
                 (self.beside if truth else self.photos).append(one)
         for one in folders:
             self._enter(one, above)
@@ -177,7 +177,7 @@ class Tree:
     def _leave(self, here: Path, pictures: Sequence[Path], folders: Iterable[Path]) -> None:
         """Count photos that are not taken."""
         known = {one.stem for one in pictures}
-        counts = {here: sum(not is_truth_beside(one, known) for one in pictures)}
+        counts = {here: sum(not is_truth_beside(one.stem, known) for one in pictures)}
         for one in folders:
             below = Tree(one, named=False)
             below._enter(one, {})
@@ -230,11 +230,15 @@ def _holds_truths(folder: Path, beside_images: bool) -> bool:
     return name in TRUTH_FOLDERS or (beside_images and name == _SKY)
 
 
-def is_truth_beside(file: PurePath, known: set[str]) -> bool:
-    """Whether a picture among others is a truth: ``knife_edge`` is a photo without a ``knife``."""
-    added = ADDED.search(file.stem)
+def is_truth_beside(stem: str, known: set[str]) -> bool:
+    """Whether a picture among others is a truth, by its stem and all stems.
+
+    >>> is_truth_beside("knife_edge", {"knife_edge"}), is_truth_beside("a_edge", {"a", "a_edge"})
+    (False, True)
+    """
+    added = ADDED.search(stem)
     mask = added is not None and added[0].lower() in ("-mask", "_mask")
-    return added is not None and (mask or bare_stem(file.stem) in known)
+    return added is not None and (mask or bare_stem(stem) in known)
 
 
 def _maps_alone(here: Path, pictures: list[Path]) -> bool:
