@@ -8,6 +8,8 @@ from pathlib import Path
 
 from skyline_viz.command_line.messages import UsageError, say
 from skyline_viz.running.batch import working_on
+from skyline_viz.storage.copies import CACHE, caches
+from skyline_viz.storage.copy_names import has_copies
 
 
 @contextmanager
@@ -21,7 +23,8 @@ def on_cluster(where: str | None, workers: int = 0, out: Path | None = None) -> 
 
     Raises:
         UsageError: Both are asked for.
-        ClusterError: There is no such cluster, or a worker does not see the folder.
+        ClusterError: There is no such cluster, or a worker does not see the folder, or that of the
+            copies that have been made of data sets.
         StorageError: Dask is not installed.
     """
     if where is None:
@@ -35,4 +38,6 @@ def on_cluster(where: str | None, workers: int = 0, out: Path | None = None) -> 
         say(f"the cluster shows what it does at {there.link}")
         if out is not None:
             there.check_shared(out)
+        if has_copies():
+            there.check_shared(caches(), f"let {CACHE} name")
         yield

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path, PurePosixPath
 
 from skyline_viz.command_line.inputs import collect, output_names
+from skyline_viz.command_line.messages import counted, say
 from skyline_viz.command_line.sources import Missing, spelt_out
 from skyline_viz.datasets.dataset import DatasetItem
+from skyline_viz.datasets.listed_names import told_apart
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.datasets.parquet_files import is_label_table
 from skyline_viz.datasets.stored_item import StoredItem
-from skyline_viz.storage.addresses import is_address
-from skyline_viz.storage.listing import photos_at
+from skyline_viz.storage.addresses import StorageError, is_address
+from skyline_viz.storage.listing import Listed, photos_at
 from skyline_viz.storage.stored_photo import StoredPhoto
+from skyline_viz.system.names import listed
 
 
 def collect_stored(words: Sequence[str], taken: Sequence[str] = ()) -> list[NamedItem]:
@@ -72,6 +76,28 @@ def _listed(addresses: Sequence[str]) -> list[StoredPhoto]:
     """The photos at addresses, each once."""
     found: dict[str, StoredPhoto] = {}
     for word in addresses:
-        for one in photos_at(word):
+        for one in _photos(word):
             found.setdefault(one.address, StoredPhoto(one.address, one.size, one.stamp))
     return [*found.values()]
+
+
+def _photos(address: str) -> Iterator[Listed]:
+    """The photos at an address, without their truths; says how many of these there are.
+
+    Raises:
+        StorageError: It leads nowhere, or to no photo.
+    """
+    truths: Counter[str] = Counter()
+    some = False
+    for name, one, is_own in told_apart((one.below, one) for one in photos_at(address)):
+        if is_own:
+            some = True
+            yield one
+        else:
+            truths[str(PurePosixPath(name).parent)] += 1
+    where = listed([place if place != "." else "the folder itself" for place in truths])
+    left = f"{counted(truths.total(), 'picture')} in {where}"
+    if not some:
+        raise StorageError(f"{address} holds no photograph but truths of others: {left}.")
+    if truths:
+        say(f"{address}: truths are no photos: {left}.")

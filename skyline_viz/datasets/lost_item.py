@@ -45,7 +45,7 @@ class LostItem(DatasetItem):
         return super().truth()
 
 
-def with_lost(datasets: Iterable[Dataset], folder: Path) -> list[Dataset]:
+def with_lost(datasets: Iterable[Dataset], folder: str | Path) -> list[Dataset]:
     """Data sets of a folder, in which files that could not be copied are said to be lost.
 
     What belongs to a photo fails with it. Of the rest the first data set has a sentence in its
@@ -58,6 +58,7 @@ def with_lost(datasets: Iterable[Dataset], folder: Path) -> list[Dataset]:
     Raises:
         StorageError: A text is lost that may have told the truths of many photos.
     """
+    folder = Path(folder)
     lost = lost_in(folder)
     if not lost:
         return [*datasets]

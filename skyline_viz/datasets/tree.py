@@ -42,10 +42,12 @@ SIGNS = (
 """Files that lie together in what was written by `detect`, `gallery`, `evaluate`, `diagnose`,
 ``gallery --html``, and an export with photos."""
 
+OF_ONE_PHOTO = ("cyl", "pinhole")
+"""Folders of GeoPose3K that belong to the photo beside them."""
+
 _GALLERY = {"gallery.json", "thumbnails"}
 _FIGURES = ("histogram", "curves", "causes")  # pictures in a folder of results
 _OVERLAY = "-overlay"  # what `detect` adds to the name of a photo with its line
-_OF_ONE_PHOTO = ("cyl", "pinhole")  # folders of GeoPose3K that belong to the photo beside them
 _SKY = "sky"  # a folder of truths only beside images
 
 
@@ -152,16 +154,16 @@ class Tree:
             others = [one for one in pictures if one != lone]
             self.beside += [one for one in others if is_truth_word(one.stem)]
             self._leave(here, [one for one in others if not is_truth_word(one.stem)], ())
-            maps = [one for one in folders if one.name.lower() == _OF_ONE_PHOTO[1]]
+            maps = [one for one in folders if one.name.lower() == OF_ONE_PHOTO[1]]
             self.beside += [file for one in maps for file in find_photos(one)]
-            folders = [one for one in folders if one.name.lower() not in _OF_ONE_PHOTO]
+            folders = [one for one in folders if one.name.lower() not in OF_ONE_PHOTO]
         elif _maps_alone(here, pictures) and not asked_for:
-            self.beside += [] if here.name.lower() == _OF_ONE_PHOTO[0] else pictures
+            self.beside += [] if here.name.lower() == OF_ONE_PHOTO[0] else pictures
         else:
             named = {*self.linked.values()}
             known = {one.stem for one in pictures}
             for one in pictures:
-                truth = one in named or _is_truth(one, known)
+                truth = one in named or is_truth_beside(one.stem, known)
                 (self.beside if truth else self.photos).append(one)
         for one in folders:
             self._enter(one, above)
@@ -175,7 +177,7 @@ class Tree:
     def _leave(self, here: Path, pictures: Sequence[Path], folders: Iterable[Path]) -> None:
         """Count photos that are not taken."""
         known = {one.stem for one in pictures}
-        counts = {here: sum(not _is_truth(one, known) for one in pictures)}
+        counts = {here: sum(not is_truth_beside(one.stem, known) for one in pictures)}
         for one in folders:
             below = Tree(one, named=False)
             below._enter(one, {})
@@ -228,11 +230,15 @@ def _holds_truths(folder: Path, beside_images: bool) -> bool:
     return name in TRUTH_FOLDERS or (beside_images and name == _SKY)
 
 
-def _is_truth(file: Path, known: set[str]) -> bool:
-    """Whether a picture among others is a truth: ``knife_edge`` is a photo without a ``knife``."""
-    added = ADDED.search(file.stem)
+def is_truth_beside(stem: str, known: set[str]) -> bool:
+    """Whether a picture among others is a truth, by its stem and all stems.
+
+    >>> is_truth_beside("knife_edge", {"knife_edge"}), is_truth_beside("a_edge", {"a", "a_edge"})
+    (False, True)
+    """
+    added = ADDED.search(stem)
     mask = added is not None and added[0].lower() in ("-mask", "_mask")
-    return added is not None and (mask or bare_stem(file.stem) in known)
+    return added is not None and (mask or bare_stem(stem) in known)
 
 
 def _maps_alone(here: Path, pictures: list[Path]) -> bool:
@@ -251,7 +257,7 @@ def _lone(here: Path, pictures: list[Path], folders: list[Path], asked_for: bool
     photo = named.get("photo")
     if photo is None:
         return None
-    pinhole = any(one.name.lower() == _OF_ONE_PHOTO[1] and find_photos(one) for one in folders)
+    pinhole = any(one.name.lower() == OF_ONE_PHOTO[1] and find_photos(one) for one in folders)
     maps = pinhole or any(is_label_map(one.stem) for one in pictures)
     alone = all(one == photo or is_truth_word(one.stem) for one in pictures)
     return photo if maps or (alone and not asked_for) else None

@@ -107,8 +107,12 @@ class Cluster:
 
         return summed(self, function, tasks, title=title)
 
-    def check_shared(self, folder: Path) -> None:
-        """Make sure that workers write into the very folder that this program sees.
+    def check_shared(self, folder: Path, how: str = "name") -> None:
+        """Make sure that workers see the very folder that this program sees.
+
+        Args:
+            folder: The folder; this program may write into it.
+            how: How another one is named, for the sentence.
 
         Raises:
             ClusterError: One of them sees another one, or none.
@@ -118,7 +122,7 @@ class Cluster:
         for worker, there in seen.items():
             if not there:
                 raise ClusterError(
-                    f"the worker {worker} does not see the folder {folder}; name one that all "
+                    f"the worker {worker} does not see the folder {folder}; {how} one that all "
                     f"machines share, by its whole path."
                 )
 

@@ -30,6 +30,11 @@ def remember(copy: Path, address: str) -> None:
     _copies[str(copy)] = address
 
 
+def has_copies() -> bool:
+    """Whether this process has made a copy, or brought one up to date."""
+    return bool(_copies)
+
+
 def by_address(text: str) -> str:
     """A sentence in which copies are called by their addresses.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -31,6 +31,9 @@ class Listed:
     stamp: str = ""
     """What the storage says of its content, which changes with it; empty where it says nothing."""
 
+    below: str = field(default="", compare=False)
+    """Its path below what was listed; empty for that itself."""
+
 
 def photos_at(address: str) -> Iterator[Listed]:
     """The photos at an address, folder by folder and by name.
@@ -41,16 +44,15 @@ def photos_at(address: str) -> Iterator[Listed]:
     Raises:
         StorageError: It holds no photo, is missing, or cannot be listed.
     """
-    found, path = file_system(address)
+    file_system(address)  # nothing knows it, perhaps
     if is_photo(address.partition("::")[0]):
         yield Listed(address)
         return
-    _refuse_archive(address)
     some = False
-    for name, about in files_below(found, path, address):
-        if is_photo(name):
+    for own, one in files_at(address):
+        if is_photo(own):
             some = True
-            yield Listed(address_of(found, name, address), _size(about), stamp_of(about))
+            yield replace(one, below=own)
     if not some:
         raise StorageError(f"{address} holds no photograph.")
 

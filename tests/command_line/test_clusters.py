@@ -1,12 +1,14 @@
 """Commands on a cluster find what they find in processes; lost workers cost nothing else."""
 
 import json
+from contextlib import nullcontext
 
 import pytest
 
 from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.running.batch import elsewhere
 from skyline_viz.running.cluster import Cluster, ClusterError
+from skyline_viz.storage import copy_names
 
 
 def test_without_one_nothing_is_elsewhere():
@@ -82,7 +84,28 @@ def test_a_folder_that_workers_do_not_see_is_refused(tmp_path):
 
     with pytest.raises(ClusterError, match=r"^the worker tcp://b:2 does not see the folder .*path"):
         Cluster(Blind()).check_shared(tmp_path)
+    with pytest.raises(ClusterError, match=r"; let CACHE name one that all machines share"):
+        Cluster(Blind()).check_shared(tmp_path, "let CACHE name")
     assert [*tmp_path.iterdir()] == []
+
+
+def test_copies_have_to_be_where_workers_see_them(monkeypatch, tmp_path):
+    checked = []
+
+    class There:
+        link = "http://127.0.0.1:1"
+
+        def check_shared(self, folder, how="name"):
+            checked.append((folder, how))
+
+    monkeypatch.setattr("skyline_viz.running.cluster.cluster_at", lambda _: nullcontext(There()))
+    monkeypatch.setattr(copy_names, "_copies", {})
+    monkeypatch.setenv("SKYLINE_VIZ_CACHE", str(tmp_path))
+    with on_cluster("local:1"):
+        assert checked == []
+    copy_names.remember(tmp_path / "hills", "s3://b/hills")
+    with on_cluster("local:1"):
+        assert checked == [(tmp_path, "let SKYLINE_VIZ_CACHE name")]
 
 
 HERE = ("here", "there")

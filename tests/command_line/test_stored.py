@@ -52,3 +52,17 @@ def test_a_list_may_name_both(memory, tmp_path):
     wanted = [str(file), "memory://in/a.png"]
     assert [one.name for one in photos_named(words)[0]] == wanted
     assert [stored_photo(one.item).name for one in collect_stored(words)] == wanted
+
+
+def test_truths_of_a_data_set_are_no_photos(memory, capsys):
+    for key in ("in/masks/a.png", "in/b_mask.png", "gt/masks/a.png"):
+        memory.pipe(f"/{key}", b"x")
+    photos, _ = photos_named(["memory://in"])
+    assert [one.name.rpartition("/")[2] for one in photos] == ["a.png", "b.png", "a.png"]
+    assert capsys.readouterr().err == (
+        "skyline-viz: memory://in: truths are no photos: 2 pictures in the folder itself, masks.\n"
+    )
+    (asked_for,), _ = photos_named(["memory://in/masks"])
+    assert asked_for.name.endswith("/in/masks/a.png")
+    with pytest.raises(StorageError, match=r"^memory://gt holds no photograph but truths .* masks"):
+        photos_named(["memory://gt"])

@@ -1,6 +1,8 @@
 """Data sets of a storage on this machine: whole, up to date, and no larger than the disk."""
 
 import os
+from concurrent.futures import ThreadPoolExecutor
+from threading import Event
 from types import SimpleNamespace
 
 import fsspec
@@ -133,6 +135,36 @@ def test_a_bar_counts_what_is_downloaded(memory):
     assert shown[0] == (2, "copying 3 MB")
     assert sorted(shown[1:-1]) == ["a.jpg", "b.jpg"]
     assert shown[-1] == "end"
+
+
+def test_ctrl_c_leaves_downloads_that_have_not_begun(memory, monkeypatch):
+    for number in range(40):
+        memory.pipe(f"/in/{number}.jpg", b"x")
+    monkeypatch.setattr(copies, "_THREADS", 1)
+    fetch, fetched = copies.fetch, []
+    interrupted = Event()
+
+    def slow(address, size):
+        if fetched:
+            assert interrupted.wait(60)
+        fetched.append(address)
+        return fetch(address, size)
+
+    class Threads(ThreadPoolExecutor):
+        def shutdown(self, wait=True, *, cancel_futures=False):
+            super().shutdown(wait=False, cancel_futures=cancel_futures)
+            interrupted.set()
+            super().shutdown()
+
+    class Bar(copies._Silent):
+        def advance(self, what=""):
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(copies, "ThreadPoolExecutor", Threads)
+    monkeypatch.setattr(copies, "fetch", slow)
+    with pytest.raises(KeyboardInterrupt):
+        copied("memory://in", Bar)
+    assert len(fetched) <= 2
 
 
 def test_what_does_not_fit_is_not_copied(memory, monkeypatch):
