@@ -32,9 +32,9 @@ def on_cluster(where: str | None, workers: int = 0, out: Path | None = None) -> 
         return
     if workers:
         raise UsageError("--workers are processes of this machine, and --cluster has its own.")
-    from skyline_viz.running.cluster import cluster_at
+    from skyline_viz.running.clusters.connecting import cluster_at
 
-    with cluster_at(where) as there, working_on(there):
+    with cluster_at(where, say) as there, working_on(there):
         say(f"the cluster shows what it does at {there.link}")
         if out is not None:
             there.check_shared(out)

@@ -7,7 +7,8 @@ import pytest
 
 from skyline_viz.command_line.clusters import on_cluster
 from skyline_viz.running.batch import elsewhere
-from skyline_viz.running.cluster import Cluster, ClusterError
+from skyline_viz.running.clusters.requirements import ClusterError
+from skyline_viz.running.clusters.working import Cluster
 from skyline_viz.storage import copy_names
 
 
@@ -98,7 +99,9 @@ def test_copies_have_to_be_where_workers_see_them(monkeypatch, tmp_path):
         def check_shared(self, folder, how="name"):
             checked.append((folder, how))
 
-    monkeypatch.setattr("skyline_viz.running.cluster.cluster_at", lambda _: nullcontext(There()))
+    monkeypatch.setattr(
+        "skyline_viz.running.clusters.connecting.cluster_at", lambda *_: nullcontext(There())
+    )
     monkeypatch.setattr(copy_names, "_copies", {})
     monkeypatch.setenv("SKYLINE_VIZ_CACHE", str(tmp_path))
     with on_cluster("local:1"):

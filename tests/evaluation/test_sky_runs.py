@@ -9,7 +9,7 @@ from skyline_viz.datasets.item import LoadedItem
 from skyline_viz.evaluation.sky_runs import learn_sky
 from skyline_viz.photo import PhotoError
 from skyline_viz.running.batch import working_on
-from skyline_viz.running.cluster import cluster_at
+from skyline_viz.running.clusters.connecting import cluster_at
 from skyline_viz.skyline import Skyline
 from testing.deep import needs_deep
 from testing.networks import bright_model

@@ -13,10 +13,10 @@ from skyline_viz.config import TrainingConfig
 from skyline_viz.datasets.item import LoadedItem
 from skyline_viz.evaluation.training_runs import train_on_several
 from skyline_viz.photo import PhotoError
-from skyline_viz.running import cluster_sums
 from skyline_viz.running.batch import BatchError, Failure, working_on
-from skyline_viz.running.cluster import cluster_at
-from skyline_viz.running.cluster_sums import Sum, summed
+from skyline_viz.running.clusters import sums as module
+from skyline_viz.running.clusters.connecting import cluster_at
+from skyline_viz.running.clusters.sums import Sum, summed
 from skyline_viz.system.notes import heard_by, note
 from testing.programs.commands import scene
 
@@ -49,7 +49,7 @@ def two():
 def test_all_photos_are_summed_once_past_bad_ones_and_a_lost_worker(
     two, tmp_path, monkeypatch, count
 ):
-    monkeypatch.setattr(cluster_sums, "_MOST_A_TASK", 4)
+    monkeypatch.setattr(module, "_MOST_A_TASK", 4)
     tasks = [Number(f"p{number}", 3**number) for number in range(count)]
     if count > 2:
         tasks[1:1] = [Number("bad", 1), Number("noted", 0), Number("once", 0)]

@@ -1,20 +1,18 @@
-"""A cluster of two: order, bad photos, lost workers, other versions, and what listens."""
+"""A cluster of two: order, bad photos, lost workers, and work of other versions."""
 
 import os
 import signal
-import socket
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-import psutil
 import pytest
 
 from skyline_viz.photo import PhotoError
-from skyline_viz.running import cluster as module
 from skyline_viz.running.batch import BatchError, Failure
-from skyline_viz.running.cluster import ClusterError, cluster_at
-from skyline_viz.storage.addresses import StorageError
+from skyline_viz.running.clusters import requirements
+from skyline_viz.running.clusters import working as module
+from skyline_viz.running.clusters.connecting import cluster_at
 from skyline_viz.system.notes import heard_by, note
 
 
@@ -61,26 +59,6 @@ def test_values_come_in_order_and_bad_photos_are_passed(two, tmp_path):
     assert set(marks(tmp_path).values()) == {1}
 
 
-def test_it_is_watched_from_this_machine_alone(two):
-    assert two.link.startswith("http://127.0.0.1:")
-    process = psutil.Process()
-    for one in (process, *process.children(recursive=True)):
-        for connection in one.net_connections("inet"):
-            if connection.status == psutil.CONN_LISTEN:
-                assert connection.laddr.ip in ("127.0.0.1", "::1")
-
-
-def test_what_is_found_comes_from_the_workers_where_they_are_reached(two):
-    assert two.client.direct_to_workers
-    (worker, *_) = two.client.scheduler_info()["workers"]
-    assert module.reaches([worker])
-    with socket.socket() as nobody:
-        nobody.bind(("127.0.0.1", 0))
-        port = nobody.getsockname()[1]
-    for gone in (f"tcp://127.0.0.1:{port}", "inproc://1", "tcp://[::1]:x"):
-        assert not module.reaches([worker, gone])
-
-
 def test_a_worker_that_is_lost_costs_its_photos_only(two, tmp_path):
     names = ["once", *(f"p{number}" for number in range(40))]
     found = list(two.run(partial(work, tmp_path), [*map(Photo, names)]))
@@ -125,40 +103,6 @@ def test_what_cannot_be_sent_is_named(two):
 
 
 def test_work_of_other_versions_is_refused_by_workers(two, tmp_path, monkeypatch):
-    monkeypatch.setattr(module, "versions", lambda: {**module._versions(), "numpy": "1.0"})
+    monkeypatch.setattr(module, "versions", lambda: {**requirements.versions(), "numpy": "1.0"})
     with pytest.raises(BatchError, match=r"a worker has numpy .*, and this program 1\.0; install"):
         list(two.run(partial(work, tmp_path), [Photo("a")]))
-
-
-def test_a_cluster_of_other_versions_is_refused(two, monkeypatch):
-    monkeypatch.setattr(module, "versions", module.versions)
-    told = {"tcp://w:1": {**module.versions(), "skyline-viz": "0.0"}}
-    with pytest.raises(ClusterError, match=r"^the worker tcp://w:1 has skyline-viz 0\.0, and this"):
-        module._check(told)
-    missing = ModuleNotFoundError("No module named 'skyline_viz'", name="skyline_viz")
-    with pytest.raises(ClusterError, match=r"^the worker tcp://w:1 has no skyline_viz; install"):
-        module._check({"tcp://w:1": missing})
-
-
-@pytest.mark.parametrize("where", ["", "local", "local:0", "host", "tcp://host", "http://h:1"])
-def test_what_is_no_cluster_is_refused(where):
-    with pytest.raises(ClusterError, match=r"^a cluster is tcp://HOST:PORT, "), cluster_at(where):
-        pass
-
-
-def test_where_nobody_answers_is_named(monkeypatch):
-    monkeypatch.setattr(module, "_PATIENCE", "200ms")
-    with (
-        pytest.raises(ClusterError, match=r"^no cluster answers at tcp://127\.0\.0\.1:9\.$"),
-        cluster_at("tcp://127.0.0.1:9"),
-    ):
-        pass
-
-
-def test_without_dask_the_extra_is_named(monkeypatch):
-    def missing(module, what):
-        raise StorageError(f"{what} needs distributed; install it with: pip install x")
-
-    monkeypatch.setattr(module, "needed", missing)
-    with pytest.raises(StorageError, match="a cluster needs distributed"), cluster_at("local:2"):
-        pass

@@ -20,7 +20,8 @@ from operator import add
 from typing import Any, Generic, TypeVar
 
 from skyline_viz.running.batch import BatchError, Failure, Named, attempt
-from skyline_viz.running.cluster import Cluster, dask, prepared, to_send, translated
+from skyline_viz.running.clusters.requirements import dask
+from skyline_viz.running.clusters.working import Cluster, prepared, to_send, translated
 from skyline_viz.running.progress import ProgressBar
 from skyline_viz.running.sending import Unsendable, packed, unpacked
 from skyline_viz.system.notes import heard_by, note

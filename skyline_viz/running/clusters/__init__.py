@@ -1,0 +1,1 @@
+"""Working on a cluster of many machines, by way of dask.distributed."""
