@@ -10,7 +10,6 @@ from skyline_viz.command_line.sources import Missing, named
 from skyline_viz.command_line.truth_options import Truths
 from skyline_viz.datasets.dataset import Dataset, DatasetError, DatasetItem
 from skyline_viz.datasets.layouts import truth_names
-from skyline_viz.datasets.lost_item import LostItem
 from skyline_viz.datasets.matching import IMAGE_FOLDERS, TRUTH_FOLDERS
 from skyline_viz.datasets.named_item import NamedItem
 from skyline_viz.datasets.parquet_files import is_label_table
@@ -127,8 +126,6 @@ def with_truth(dataset: Dataset) -> list[DatasetItem]:
         if item.has_truth:
             continue  # what is wrong with its photo is said when its turn comes
         try:
-            if isinstance(item, LostItem):
-                item.photo()  # which says why it is lost
             item.size()
             without.append(item.name)
         except PhotoError as error:

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from filecmp import cmp
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from skyline_viz import evaluation
 from skyline_viz.command_line.inputs import with_truth
 from skyline_viz.command_line.messages import UsageError, say, tell
+from skyline_viz.photo import PhotoError
 from skyline_viz.running.progress import ProgressBar
+from skyline_viz.storage.addresses import StorageError
 
 if TYPE_CHECKING:
     import rerun as rr
 
     from skyline_viz.arrays import U8
-    from skyline_viz.datasets.dataset import Dataset
+    from skyline_viz.datasets.dataset import Dataset, DatasetItem
     from skyline_viz.datasets.named_item import NamedItem
     from skyline_viz.detecting.filter_detection import FilterDetection
     from skyline_viz.detection import Detection
@@ -104,19 +104,23 @@ def train_sizes(
     Raises:
         UsageError: The data set holds no other photo with a truth.
     """
-    own = one.item.photo_path
-    others = [item for item in with_truth(dataset) if not _is_same(item.photo_path, own)]
+    own = _digest(one.item)
+    others = [
+        item
+        for item in with_truth(dataset)
+        if item.where != one.item.where and not (own and _digest(item) == own)
+    ]
     if not others:
         raise UsageError(f"{dataset.name} holds no photo with a truth but {one.name} itself.")
     return evaluation.train_sizes(others, detector.training, dataset=dataset.name)
 
 
-def _is_same(photo: Path, other: Path) -> bool:
-    """Whether two files are one photo: the same file, or copies, as those of a storage are."""
+def _digest(item: DatasetItem) -> bytes:
+    """What tells the content of a photo; nothing where it cannot be read, as is told later."""
     try:
-        return photo.resolve() == other.resolve() or cmp(photo, other, shallow=False)
-    except OSError:  # one of them cannot be read, which is told at its turn
-        return False
+        return next(item.contents())
+    except (OSError, PhotoError, StorageError):
+        return b""
 
 
 def begin_sweeps(

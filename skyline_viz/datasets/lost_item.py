@@ -24,15 +24,27 @@ class LostItem(DatasetItem):
     lost: tuple[tuple[Path, str], ...] = ()
     """Files that are lost, and why, in a sentence."""
 
+    def size(self) -> tuple[int, int] | None:
+        """Height and width of the photo.
+
+        Raises:
+            PhotoError: It is lost, or cannot be read.
+        """
+        self._require_photo()
+        return super().size()
+
     def photo(self) -> U8:
         """Read the photo.
 
         Raises:
             PhotoError: It is lost, or cannot be read.
         """
+        self._require_photo()
+        return super().photo()
+
+    def _require_photo(self) -> None:
         if reason := dict(self.lost).get(self.photo_path):
             raise PhotoError(reason)
-        return super().photo()
 
     def truth(self) -> Skyline | None:
         """Read the truth.
