@@ -34,6 +34,7 @@ from skyline_viz.command_line.run_record import remember
 from skyline_viz.command_line.sizes import limit
 from skyline_viz.command_line.words import checked
 from skyline_viz.running.batch import FULL, BatchError, sentence
+from skyline_viz.storage.copy_names import forget
 from skyline_viz.system.endings import AskedToEnd, asked_by_signals
 from skyline_viz.system.memory import end_quickly, keep_freed, loading
 from skyline_viz.system.names import printable
@@ -138,6 +139,7 @@ def parsed(
 
 
 def _run(program: str, parse: Callable[[list[str]], Command], arguments: list[str]) -> int:
+    forget()
     if arguments == ["--version"]:
         tell(f"{program} {__version__}")
         return GOOD

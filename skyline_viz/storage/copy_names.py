@@ -26,12 +26,17 @@ def name_of(address: str) -> str:
 
 
 def remember(copy: Path, address: str) -> None:
-    """Let `by_address` know of a copy, in this process."""
+    """Let `by_address` know of a copy, until the next command of this process."""
     _copies[str(copy)] = address
 
 
+def forget() -> None:
+    """Forget the copies of an earlier command of this process."""
+    _copies.clear()
+
+
 def has_copies() -> bool:
-    """Whether this process has made a copy, or brought one up to date."""
+    """Whether this command has made a copy, or brought one up to date."""
     return bool(_copies)
 
 

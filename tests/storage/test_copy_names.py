@@ -31,3 +31,10 @@ def test_a_path_in_a_copy_is_told_as_its_address(address, said, told):
 def test_all_else_stays():
     remember(Path("/caches/0123/hills"), "s3://b/hills")
     assert by_address("hills: /photos/hills/a.jpg") == "hills: /photos/hills/a.jpg"
+
+
+def test_a_command_knows_of_no_copies_of_an_earlier_one(say):
+    remember(Path("/caches/0123/hills"), "s3://b/hills")
+    assert copy_names.has_copies()
+    assert say("--version")[0] == 0
+    assert not copy_names.has_copies()
