@@ -80,10 +80,10 @@ def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapp
     Raises:
         StorageError: It is missing, or cannot be listed.
     """
-    found.invalidate_cache()  # an earlier listing may be of other files
     folders = [path]
     while folders:
         place = folders.pop()
+        found.invalidate_cache()  # an earlier listing may be of other files, and takes a kB a file
         # Not fsspec's walk, which passes over folders that may not be read.
         listed = persistent(partial(found.ls, place, detail=True), address, "listed")
         inside = sorted(listed, key=lambda about: str(about["name"]))
