@@ -17,8 +17,8 @@ ends in ``.parquet``; at a path or an address. Each photo is downloaded when its
 nothing of it is kept.
 
 Opening a table passes over it once, and keeps names and sizes. A truth is read again with the row
-group that it lies in, and travels with its photo, so that other machines need no table. Groups of
-some thousand rows are good: two of them are held.
+group that it lies in, and travels with its photo, so that other machines need no table. A table in
+a storage, or with large groups, is kept in small ones on this machine, see `small_groups`.
 """
 
 from __future__ import annotations
@@ -26,21 +26,23 @@ from __future__ import annotations
 import os
 import posixpath
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import takewhile
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+import numpy as np
+
 from skyline_viz.datasets.dataset import Dataset, DatasetError
-from skyline_viz.datasets.parquet_files import files_of, parquet, version_of
+from skyline_viz.datasets.parquet_files import files_of, parquet
+from skyline_viz.datasets.small_groups import columns_of, in_small_groups
 from skyline_viz.datasets.table_item import RowPlace, TableItem, row_group
-from skyline_viz.storage.addresses import is_address, needed
+from skyline_viz.storage.addresses import is_address
 from skyline_viz.storage.stored_photo import StoredPhoto
 from skyline_viz.system.names import listed
 
+_SIDES, _LONGEST = ("height", "width"), 10**6  # pixels
 _DETECTED = b"skyline"  # metadata of what a detector has written
-_NEEDED = ("photo", "rows")
-_OTHERS = ("visible", "height", "width", "sha256")
 
 
 def open_label_table(where: str) -> Dataset:
@@ -58,37 +60,45 @@ def open_label_table(where: str) -> Dataset:
     problems: list[str] = []
     found: dict[str, tuple[RowPlace | None, dict[str, Any]]] = {}
     twice: dict[str, None] = {}
-    for place, labelled, about in _rows(where, problems):
-        photo = place_of_photo(where, place.photo)
+    for row, named, labelled, about in _rows(where, problems):
+        photo = place_of_photo(where, named)
         if photo in found:
             twice[photo] = None
         else:
-            found[photo] = place if labelled else None, about
+            found[photo] = row if labelled else None, about
     if twice:
         problems.append(f"of several rows of a photo the first counts: {listed([*twice])}.")
     if not found:
         raise DatasetError(f"{where} names no photo.")
-    items = [
-        TableItem(
-            name,
-            Path(photo),
-            stored=StoredPhoto(photo),
-            pixels=_size(about),
-            sha256=about.get("sha256") or "",
-            place=place,
+    items, unsized = [], []
+    for name, (photo, (place, about)) in zip(names_of([*found]), found.items(), strict=True):
+        try:
+            size = _size(about)
+        except ValueError:
+            size = None
+            unsized.append(photo)
+        items.append(
+            TableItem(
+                name,
+                Path(photo),
+                stored=StoredPhoto(photo),
+                pixels=size,
+                sha256=about.get("sha256") or "",
+                place=place,
+            )
         )
-        for name, (photo, (place, about)) in zip(names_of([*found]), found.items(), strict=True)
-    ]
+    if unsized:
+        problems.append(f"heights or widths that are no size are not looked at: {listed(unsized)}.")
     return Dataset(PurePosixPath(where).stem, "table", tuple(items), tuple(problems))
 
 
-def _rows(where: str, problems: list[str]) -> Iterator[tuple[RowPlace, bool, dict[str, Any]]]:
-    """Where each row of a table is, whether it has a line, and what else it says."""
+def _rows(where: str, problems: list[str]) -> Iterator[tuple[RowPlace, str, bool, dict[str, Any]]]:
+    """Where each row of a table is, its photo, whether it has a line, and what else it says."""
     detected: list[str] = []
     for file in files_of(where):
-        with parquet(file) as table:
-            version = version_of(file)
-            columns = _columns(table, file)
+        near, version = in_small_groups(file)
+        with parquet(near) as table:
+            columns = columns_of(table, file)
             if _DETECTED in (table.schema_arrow.metadata or {}):
                 detected.append(PurePosixPath(file).name)
             for group in range(table.num_row_groups):
@@ -97,7 +107,7 @@ def _rows(where: str, problems: list[str]) -> Iterator[tuple[RowPlace, bool, dic
                 told = part.select([one for one in columns if one not in ("rows", "visible")])
                 for row, about in enumerate(told.to_pylist()):
                     if photo := about.pop("photo"):
-                        yield RowPlace(file, version, group, row, photo), labelled[row], about
+                        yield RowPlace(near, version, group, row), photo, labelled[row], about
                     else:
                         problems.append(f"row {row + 1} of group {group + 1} names no photo.")
     if detected:
@@ -133,44 +143,14 @@ def place_of_photo(where: str, photo: str) -> str:
 
 
 def _size(about: dict[str, Any]) -> tuple[int, int] | None:
-    height, width = about.get("height"), about.get("width")
-    return None if height is None or width is None else (int(height), int(width))
-
-
-def _columns(table: Any, file: str) -> list[str]:  # noqa: ANN401
-    """Names of the columns that are read.
+    """Height and width that a row tells; None where one is missing.
 
     Raises:
-        DatasetError: One is missing, or holds something else.
+        ValueError: They are none.
     """
-    schema, kinds = table.schema_arrow, needed("pyarrow", "a table of labels").types
-    if missing := [one for one in _NEEDED if one not in schema.names]:
-        raise DatasetError(
-            f"{file} has no column {missing[0]}; a table of labels has photo and rows."
-        )
-
-    def is_text(kind: Any) -> bool:  # noqa: ANN401
-        kind = kind.value_type if kinds.is_dictionary(kind) else kind
-        return any((kinds.is_string(kind), kinds.is_large_string(kind), kinds.is_string_view(kind)))
-
-    def is_list(kind: Any, inside: Callable[[Any], bool]) -> bool:  # noqa: ANN401
-        lists = (kinds.is_list, kinds.is_large_list, kinds.is_fixed_size_list)
-        return any(one(kind) for one in lists) and inside(kind.value_type)
-
-    fitting: dict[str, tuple[str, Callable[[Any], bool]]] = {
-        "photo": ("text", is_text),
-        "rows": (
-            "lists of numbers",
-            lambda kind: is_list(kind, lambda one: kinds.is_integer(one) or kinds.is_floating(one)),
-        ),
-        "visible": ("lists of true and false", lambda kind: is_list(kind, kinds.is_boolean)),
-        "height": ("whole numbers", kinds.is_integer),
-        "width": ("whole numbers", kinds.is_integer),
-        "sha256": ("text", is_text),
-    }
-    names = [one for one in (*_NEEDED, *_OTHERS) if one in schema.names]
-    for name in names:
-        what, fits = fitting[name]
-        if not fits(kind := schema.field(name).type):
-            raise DatasetError(f"the column {name} of {file} holds {kind}, and not {what}.")
-    return names
+    height, width = (np.nan if (one := about.get(side)) is None else one for side in _SIDES)
+    if np.isnan(height) or np.isnan(width):
+        return None
+    if not all(one == int(one) and 0 < one <= _LONGEST for one in (height, width)):
+        raise ValueError
+    return int(height), int(width)

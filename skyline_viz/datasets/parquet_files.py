@@ -5,14 +5,18 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from skyline_viz.datasets.dataset import DatasetError
-from skyline_viz.storage.addresses import address_of, file_system, is_address, naming, needed
+from skyline_viz.storage.addresses import address_of, file_system, is_address, needed
+from skyline_viz.storage.fetching import persistent
 
 SUFFIX = ".parquet"
 """How the name of a table ends."""
+
+_BUFFER = 1 << 20  # bytes of a column that are read at a time
 
 
 def is_label_table(where: str | os.PathLike[str]) -> bool:
@@ -33,10 +37,11 @@ def files_of(where: str) -> list[str]:
     """
     if is_address(where):
         found, path = file_system(where)
-        with naming(where):
-            if not found.isdir(path):
-                return [where]
-            inside = sorted(one for one in found.ls(path, detail=False) if is_label_table(one))
+        found.invalidate_cache()
+        if not persistent(partial(found.isdir, path), where, "read"):
+            return [where]
+        listed = persistent(partial(found.ls, path, detail=False), where, "listed")
+        inside = sorted(one for one in listed if is_label_table(one))
         files = [address_of(found, one, where) for one in inside]
     else:
         if not Path(where).is_dir():
@@ -53,37 +58,36 @@ def parquet(file: str) -> Iterator[Any]:
 
     Raises:
         DatasetError: It is missing, damaged, or no table.
-        StorageError: Its address leads nowhere.
+        StorageError: Nothing knows its address.
+        MemoryError: It does not fit.
+        Exception: Whatever its storage raises.
     """
     parquet = needed("pyarrow.parquet", "a table of labels")
     try:
         if is_address(file):
             found, path = file_system(file)
-            with naming(file):
-                opened = found.open(path, "rb")
+            opened = found.open(path, "rb")
         else:
             opened = Path(file).open("rb")  # noqa: SIM115 - closed below
-        with opened, parquet.ParquetFile(opened) as table:
+        with opened, parquet.ParquetFile(opened, buffer_size=_BUFFER) as table:
             yield table
+    except MemoryError:
+        raise
     except needed("pyarrow", "a table of labels").ArrowException as error:
         raise DatasetError(f"{file} is damaged, or no Parquet table.") from error
     except OSError as error:
+        if is_address(file):
+            raise
         reason = (error.strerror or str(error)).lower()
         raise DatasetError(f"{file} cannot be read: {reason}.") from error
 
 
 def version_of(file: str) -> str:
-    """What tells a file from an earlier or later one of the same name.
+    """What tells a file of this machine from an earlier or later one of the same name.
 
     Raises:
         DatasetError: It cannot be read.
-        StorageError: Its address leads nowhere.
     """
-    if is_address(file):
-        found, path = file_system(file)
-        with naming(file):
-            found.invalidate_cache()
-            return str(found.checksum(path))
     try:
         about = Path(file).stat()
     except OSError as error:

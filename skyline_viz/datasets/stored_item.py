@@ -51,8 +51,9 @@ class StoredItem(DatasetItem):
             PhotoError: It is empty or missing.
             StorageError: It cannot be downloaded.
         """
-        if StoredItem._latest and StoredItem._latest[0] is self:
-            return StoredItem._latest[1]
+        latest = StoredItem._latest  # once, as another thread may put in its own
+        if latest and latest[0] is self:
+            return latest[1]
         with self.stored.opened() as file:
             data = file.read()
         StoredItem._latest = self, data

@@ -23,19 +23,16 @@ class RowPlace:
     """Where a row lies."""
 
     file: str
-    """Path or address of the table's file."""
+    """The table's file, on this machine and in small groups."""
 
     version: str
-    """What tells the file from an earlier or later one, see `version_of`."""
+    """What tells the file from another one, see `version_of`; empty where nobody changes it."""
 
     group: int
     """Number of its row group."""
 
     row: int
     """Number in the group."""
-
-    photo: str
-    """The photo that it names."""
 
 
 @dataclass(frozen=True)
@@ -54,10 +51,14 @@ class TableItem(StoredItem):
     line: Skyline | None = None
     """Its truth, once it travels."""
 
+    fault: str = ""
+    """Why its truth could not be read, once it travels, in a sentence."""
+
     @property
     def has_truth(self) -> bool:
         """Whether there is a truth, sound or damaged."""
-        return self.place is not None or self.line is not None or super().has_truth
+        own = self.place is not None or self.line is not None or self.fault
+        return bool(own) or super().has_truth
 
     def size(self) -> tuple[int, int] | None:
         """Height and width that the table says; None where it says nothing."""
@@ -88,10 +89,11 @@ class TableItem(StoredItem):
 
         Raises:
             SkylineError: It is damaged, or the table has changed.
-            StorageError: The table cannot be downloaded.
         """
         if self.truth_path is not None:  # another one was named
             return super().truth()
+        if self.fault:
+            raise SkylineError(self.fault)
         if self.place is None:
             return self.line
         return _line(self.place, self.where)
@@ -104,13 +106,18 @@ class TableItem(StoredItem):
 
     def without_truth(self) -> TableItem:
         """The photo alone."""
-        return replace(self, truth_path=None, place=None, line=None)
+        return replace(self, truth_path=None, place=None, line=None, fault="")
 
     def __getstate__(self) -> dict[str, Any]:
-        """As it travels: with its truth."""
+        """As it travels: with its truth, or what is wrong with that."""
         if self.place is None:
             return self.__dict__
-        return {**self.__dict__, "line": self.truth(), "place": None}
+        line, fault = None, ""
+        try:
+            line = _line(self.place, self.where)
+        except SkylineError as error:
+            fault = str(error)
+        return {**self.__dict__, "line": line, "fault": fault, "place": None}
 
 
 @lru_cache(maxsize=2)
@@ -119,10 +126,9 @@ def row_group(file: str, version: str, number: int) -> Any:  # noqa: ANN401
 
     Raises:
         DatasetError: The file cannot be read, or has changed.
-        StorageError: It cannot be downloaded.
     """
     with parquet(file) as table:
-        if version_of(file) != version:
+        if version and version_of(file) != version:
             raise DatasetError("it has changed since the table was opened.")
         names = [one for one in ("rows", "visible") if one in table.schema_arrow.names]
         return table.read_row_group(number, columns=names)
@@ -145,4 +151,4 @@ def _line(place: RowPlace, photo: str) -> Skyline:
             visible = visible & told.to_numpy(zero_copy_only=False)
         return Skyline(np.where(np.isfinite(rows), rows, 0), visible)
     except (DatasetError, IndexError, TypeError, ValueError) as error:
-        raise SkylineError(f"{photo}: its row of {place.file} cannot be read: {error}") from error
+        raise SkylineError(f"{photo}: its row of the table cannot be read: {error}") from error

@@ -33,10 +33,12 @@ from skyline_viz.system.memory import in_words
 CACHE = "SKYLINE_VIZ_CACHE"
 """Variable of the environment that names the folder of caches."""
 
+KEPT = 30 * 86400.0
+"""Seconds that a copy stays that nobody uses."""
+
 _STATE = ".copied.json"  # hidden, so that no data set holds it
 _THREADS = 8  # downloads at a time
 _BROKEN_OFF = 2 * _THREADS  # downloads one after the other that are an outage
-_KEPT = 30 * 86400.0  # seconds that an unused copy stays
 _MOST_OF_DISK = 0.9  # of what is free
 _WEB = ("http://", "https://")  # where nothing but its name tells a file from a folder
 _WEB_FILES = (".csv", ".json", ".jsonl", ".parquet", ".xml")
@@ -232,5 +234,5 @@ def _write_state(target: Path, stamps: Mapping[str, str], lost: Mapping[str, str
 def _forget_old(home: Path) -> None:
     """Remove copies that nobody has asked for in a month, but for one."""
     for state in home.parent.glob(f"{'[0-9a-f]' * 16}/*/{_STATE}"):
-        if state.parent.parent != home and time.time() - state.stat().st_mtime > _KEPT:
+        if state.parent.parent != home and time.time() - state.stat().st_mtime > KEPT:
             shutil.rmtree(state.parent.parent, ignore_errors=True)

@@ -129,3 +129,19 @@ def test_a_photo_of_a_table_that_is_another_one_fails_alone(say, tmp_path):
     assert status == 1
     assert "a.png is not the file that was labelled" in err
     assert sv.FilterBank.load(tmp_path / "bank.npz").provenance.images == 1
+
+
+@pytest.mark.parametrize("how", [("--workers", "1"), ("--workers", "2"), ("--cluster", "local:2")])
+def test_a_row_that_is_damaged_costs_its_photo_alone(say, tmp_path, how):
+    rows = []
+    for number in range(4):
+        write_scene(tmp_path / f"p{number}.png", number)
+        rows.append(row_of(f"p{number}.png", scene(number)[1]))
+    rows[1]["rows"], rows[2]["visible"] = [], [True]
+    write_labels(tmp_path / "t.parquet", rows)
+    for words in (("train", "t.parquet", "--out", "b.npz"), ("evaluate", "t.parquet")):
+        status, out, err = say(*words, *how)
+        assert status == 1
+        told = [line for line in err.splitlines() if "its row of the table cannot be read" in line]
+        assert len(told) == 2
+        assert "2 of 4 in t" in out or "2 photos" in out

@@ -154,7 +154,7 @@ def test_what_a_detector_has_found_is_told(tmp_path):
         (
             [{"photo": "a", "rows": [1.0], "height": "9"}],
             {"height": pa.string()},
-            "the column height of .* holds string, and not whole numbers.",
+            "the column height of .* holds string, and not numbers.",
         ),
         (
             [{"photo": "a", "rows": [1.0], "visible": [1]}],
