@@ -39,13 +39,10 @@ class Truths:
         """
         from skyline_viz.command_line.local import local
         from skyline_viz.datasets.layouts import open_dataset
-        from skyline_viz.datasets.lost_item import with_lost
         from skyline_viz.datasets.parquet_files import is_label_table
 
-        if is_label_table(folder):
-            return open_dataset(folder)
-        here = local(folder)
-        return with_lost([open_dataset(here, sky=self.sky, terrain=self.terrain)], here)[0]
+        place = folder if is_label_table(folder) else local(folder)
+        return open_dataset(place, sky=self.sky, terrain=self.terrain)
 
     def open_all(self, folder: str | Path) -> list[Dataset]:
         """Open the data sets of a folder, where it holds several; or a table.
@@ -54,11 +51,8 @@ class Truths:
             DatasetError: As `skyline_viz.datasets.layouts.open_datasets`.
         """
         from skyline_viz.datasets.layouts import open_datasets
-        from skyline_viz.datasets.lost_item import with_lost
-        from skyline_viz.datasets.parquet_files import is_label_table
 
-        found = open_datasets(folder, sky=self.sky, terrain=self.terrain)
-        return found if is_label_table(folder) else with_lost(found, Path(folder))
+        return open_datasets(folder, sky=self.sky, terrain=self.terrain)
 
 
 TruthOptions: TypeAlias = Annotated[Truths, tyro.conf.arg(name="")]

@@ -29,6 +29,7 @@ from pathlib import Path
 
 from skyline_viz.datasets.dataset import Dataset, DatasetError, DatasetItem, Layout
 from skyline_viz.datasets.label_table import open_label_table
+from skyline_viz.datasets.lost_item import with_lost
 from skyline_viz.datasets.matching import (
     IMAGE_FOLDERS,
     NUMBERED,
@@ -42,6 +43,9 @@ from skyline_viz.datasets.parquet_files import is_label_table
 from skyline_viz.datasets.table_item import TableItem
 from skyline_viz.datasets.tree import Tree
 from skyline_viz.picture_files.kinds import left_out
+from skyline_viz.storage.addresses import is_address
+from skyline_viz.storage.copies import copied
+from skyline_viz.storage.copy_names import by_address
 
 _GEOPOSE3K_DEEP = 2  # parts of NAME/photo.jpg
 _CH1_PARTS = ("cvg", "panoramio", "poor_edge_images")
@@ -59,7 +63,8 @@ def open_dataset(
     `skyline_viz.datasets.label_table`.
 
     Args:
-        folder: The folder; or the table, by a path or an address that ends in ``.parquet``.
+        folder: The folder, or the table, which ends in ``.parquet``; by a path or an address. What
+            lies at the address of a folder is copied, see `skyline_viz.storage.copies`.
         sky: Which value of masks is sky, as `skyline_viz.truths.read_truth` takes it; told by each
             mask itself unless given.
         terrain: Which value of masks is terrain, instead of `sky`.
@@ -67,7 +72,7 @@ def open_dataset(
     Raises:
         DatasetError: The folder is missing, is a file, cannot be listed, holds no photograph, or
             holds several data sets; or the table is damaged.
-        StorageError: The address of a table leads nowhere.
+        StorageError: The address leads nowhere, or cannot be copied.
     """
     found = open_datasets(folder, sky=sky, terrain=terrain)
     if len(found) > 1:
@@ -84,10 +89,15 @@ def open_datasets(
     Raises:
         DatasetError: The folder is missing, is a file, cannot be listed, or holds no photograph; or
             the table is damaged.
-        StorageError: The address of a table leads nowhere.
+        StorageError: The address leads nowhere, or cannot be copied.
     """
     if is_label_table(folder):
         return [open_label_table(os.fspath(folder))]
+    if is_address(folder):
+        try:
+            return open_datasets(copied(os.fspath(folder)), sky=sky, terrain=terrain)
+        except DatasetError as error:
+            raise DatasetError(by_address(str(error))) from error
     root = Path(folder)
     try:
         if not root.is_dir():
@@ -103,10 +113,13 @@ def open_datasets(
     except OSError as error:
         reason = error.strerror or str(error)
         raise DatasetError(f"{root} cannot be read: {reason.lower()}.") from error
-    return [
-        replace(one, items=tuple(replace(item, sky=sky, terrain=terrain) for item in one))
-        for one in found
-    ]
+    return with_lost(
+        (
+            replace(one, items=tuple(replace(item, sky=sky, terrain=terrain) for item in one))
+            for one in found
+        ),
+        root,
+    )
 
 
 def truth_names(item: DatasetItem) -> str:

@@ -361,3 +361,14 @@ def test_photos_in_hidden_folders_are_not_mentioned(tmp_path):
     put(tmp_path / ".thumbnails" / "a.png")
     assert sv.open_dataset(tmp_path).left_out == ()
     assert names(sv.open_dataset(tmp_path)) == ["a"]
+
+
+def test_a_folder_of_a_storage_is_opened_as_a_copy(tmp_path, memory, monkeypatch):
+    monkeypatch.setenv("SKYLINE_VIZ_CACHE", str(tmp_path / "caches"))
+    memory.pipe_file("/hills/a.png", put(tmp_path / "a.png").read_bytes())
+    memory.pipe_file("/hills/masks/a.png", put(tmp_path / "a_mask.png", MASK).read_bytes())
+    (item,) = (dataset := sv.open_dataset("memory://hills"))
+    assert (dataset.name, item.name, item.truth()) == ("hills", "a", SKYLINE)
+    memory.pipe_file("/texts/a.txt", b"x")
+    with pytest.raises(sv.DatasetError, match=r"^memory://texts holds no photograph"):
+        sv.open_dataset("memory://texts")
