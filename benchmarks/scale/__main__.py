@@ -31,7 +31,7 @@ from benchmarks.scale.measuring import KINDS, SIZE, Cost, measured
 from skyline_viz.arrays import U8
 from skyline_viz.config import TrainingConfig
 from skyline_viz.detector import Detector
-from skyline_viz.photo import write_photo
+from skyline_viz.photo import read_photo, write_photo
 from skyline_viz.rendering import render
 from skyline_viz.running.line_run import LineTask, find_line
 from skyline_viz.running.line_store import store_of
@@ -150,7 +150,9 @@ def parts() -> None:
             write_photo(photo, scene.photo)
             task = LineTask(StoredPhoto(str(photo)))
             detecting = _best(lambda task=task: find_line(detector, task))
-            gathering = _best(lambda one=scene: gather(one.photo, one.truth, 0, config))
+            gathering = _best(
+                lambda file=photo, truth=scene.truth: gather(read_photo(file), truth, 0, config)
+            )
             print(
                 f"a photo of {size[0]} x {size[1]}: {detecting:.0f} ms of a processor to detect, "
                 f"{gathering:.0f} ms to gather from"
