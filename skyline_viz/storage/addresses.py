@@ -7,11 +7,13 @@ a path. Credentials and servers are those that the environment gives to the libr
 
 from __future__ import annotations
 
+import logging
 import os
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
+from types import MethodType
 from typing import Any
 
 EXTRA = "cluster"
@@ -29,6 +31,8 @@ _LASTING = (
     PermissionError,
 )
 _GONE, _FORBIDDEN = (404, 410), (401, 403)  # statuses of HTTP
+_GOOGLE_TRIES = 2  # a second or two between them
+_UNHEARD = logging.NullHandler()  # others that a program has set hear all
 _PASSING = (408, 425, 429)  # of those that blame the one who asks
 
 
@@ -104,7 +108,21 @@ def file_system(address: str) -> tuple[Any, str]:
         with naming(address):
             raise error
         raise
+    if type(found).__module__.startswith("gcsfs"):
+        _bounded(found)
     return found, str(path)
+
+
+def _bounded(found: Any) -> None:  # noqa: ANN401
+    """Have gcsfs ask a few times, where it has six tries for each of ours, and log no traceback.
+
+    It has no setting for either. Tables are read past our own tries, so that some are left.
+    """
+    logging.getLogger("gcsfs").addHandler(_UNHEARD)
+    asking = getattr(type(found)._request, "__wrapped__", None)  # without its tries
+    if asking is not None:
+        again = needed("gcsfs.retry", "gs://").retry_request(retries=_GOOGLE_TRIES)
+        found._request = MethodType(again(asking), found)
 
 
 def scheme(address: str) -> str:

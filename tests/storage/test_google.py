@@ -1,11 +1,16 @@
 """Google Cloud Storage, as far as its stand-in on this machine goes."""
 
+import logging
+import socket
+
 import fsspec
+import gcsfs
 import pytest
 
+from skyline_viz.storage import addresses
 from skyline_viz.storage.addresses import StorageError
 from skyline_viz.storage.copies import CACHE
-from skyline_viz.storage.fetching import fetch
+from skyline_viz.storage.fetching import TRIES, fetch
 from skyline_viz.storage.listing import photos_at
 from skyline_viz.storage.uploads import uploaded
 from testing.programs.gs import gs as started_gs
@@ -62,3 +67,30 @@ def test_a_table_goes_there_and_another_run_s_stays(gs, monkeypatch, tmp_path):
         assert file.read_bytes() == b"one"
         gs.pipe("photos/out/t.parquet", b"two")
     assert gs.cat("photos/out/t.parquet") == b"two"
+
+
+@pytest.fixture
+def nobody(monkeypatch):
+    """A storage that does not answer."""
+    with socket.socket() as bound:
+        bound.bind(("127.0.0.1", 0))
+        monkeypatch.setenv("STORAGE_EMULATOR_HOST", f"http://127.0.0.1:{bound.getsockname()[1]}")
+        gcsfs.GCSFileSystem.clear_instance_cache()
+        yield
+        gcsfs.GCSFileSystem.clear_instance_cache()
+
+
+def test_without_a_network_the_tries_are_ours_and_nothing_is_logged(
+    nobody, pauses, monkeypatch, capfd
+):
+    tries = []
+    plain = gcsfs.GCSFileSystem._get_params
+    monkeypatch.setattr(
+        gcsfs.GCSFileSystem, "_get_params", lambda *one: tries.append(one) or plain(*one)
+    )
+    monkeypatch.setattr(addresses, "_GOOGLE_TRIES", 1)
+    with pytest.raises(StorageError, match=rf"^gs://photos/a\.jpg could not .* {TRIES} tries: "):
+        fetch("gs://photos/a.jpg")
+    assert (len(tries), len(pauses)) == (TRIES, TRIES - 1)
+    assert addresses._UNHEARD in logging.getLogger("gcsfs").handlers
+    assert capfd.readouterr().err == ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import logging
 import re
@@ -10,8 +11,10 @@ from collections.abc import Callable, Iterator, Sequence
 from multiprocessing import resource_tracker
 from typing import Any
 
+from skyline_viz.running.clusters.asking import check_scheduler, every_worker
 from skyline_viz.running.clusters.requirements import ClusterError, check, dask, versions
 from skyline_viz.running.clusters.working import Cluster
+from skyline_viz.storage.addresses import plain
 from skyline_viz.system.aftermath import passing_folder
 from skyline_viz.system.endings import held_back
 
@@ -22,6 +25,7 @@ _ADDRESS = re.compile(r"(tcp|tls|ws|wss|ucx)://\S+:\d+")
 _SOON, _FIRST_WORKER = 3.0, 600.0  # seconds to wait for a worker, untold and at all
 _PATIENCE = "10s"  # of connecting
 _ASKED, _REACHING = 3, 2.0  # workers to which a connection is tried; seconds for each
+_ENDING = 0.5  # seconds that a worker of this machine has to end by itself
 
 _SETTINGS = {
     "distributed.worker.profile.enabled": False,  # of photos it says nothing, and takes time
@@ -43,7 +47,8 @@ def cluster_at(where: str, tell: Callable[[str], None] = lambda _: None) -> Iter
         tell: Gets a sentence where there is something to wait for.
 
     Raises:
-        ClusterError: Nobody answers there, or workers have other versions than this program.
+        ClusterError: No scheduler or worker answers there, or workers have other versions than
+            this program.
         StorageError: Dask is not installed.
     """
     local = LOCAL.fullmatch(where)
@@ -58,14 +63,16 @@ def cluster_at(where: str, tell: Callable[[str], None] = lambda _: None) -> Iter
         until_done.enter_context(_quiet())
         if local:
             where = until_done.enter_context(_started(int(local[1]))).scheduler_address
+        else:
+            check_scheduler(where)
         try:
             client = until_done.enter_context(
                 distributed.Client(where, set_as_default=False, timeout=_PATIENCE)
             )
-        except (OSError, TimeoutError) as error:
-            raise ClusterError(f"no cluster answers at {where}.") from error
+        except Exception as error:  # it has gone, or has another dask
+            raise ClusterError(f"the cluster at {where} lets nobody in: {plain(error)}.") from error
         await_worker(client, where, tell)
-        check(client.run(versions, on_error="return"))
+        check(every_worker(client, versions))
         client.direct_to_workers = reaches([*client.scheduler_info(-1)["workers"]])
         yield Cluster(client)
 
@@ -131,4 +138,13 @@ def _started(number: int) -> Iterator[Any]:
                 silence_logs=50,
             )
         with cluster:
-            yield cluster
+            try:
+                yield cluster
+            finally:
+                cluster.sync(_end, cluster)
+
+
+async def _end(cluster: Any) -> None:  # noqa: ANN401
+    """End workers at once, where dask lets them finish what nobody waits for any more."""
+    ends = (worker.close(timeout=_ENDING) for worker in cluster.workers.values())
+    await asyncio.gather(*ends, return_exceptions=True)

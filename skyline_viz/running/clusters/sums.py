@@ -15,9 +15,7 @@ import secrets
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import reduce
-from operator import add
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 from skyline_viz.running.batch import BatchError, Failure, Named, attempt
 from skyline_viz.running.clusters.requirements import dask
@@ -48,10 +46,13 @@ class Sum(Generic[Value]):
     notes: list[str] = field(default_factory=list)
     """What was noted about them."""
 
-    def __add__(self, other: Sum[Value]) -> Sum[Value]:
-        totals = [one.total for one in (self, other) if one.total is not None]
-        total = reduce(add, totals) if totals else None
-        return Sum(total, self.failures + other.failures, self.notes + other.notes)
+    def __iadd__(self, other: Sum[Value]) -> Self:
+        if other.total is not None:
+            adding: Any = self.total  # what can be added has no type of its own
+            self.total = other.total if adding is None else adding + other.total
+        self.failures += other.failures
+        self.notes += other.notes
+        return self
 
 
 def summed(
@@ -88,7 +89,8 @@ def summed(
             work = client.submit(bytes, to_send(function), key=next(names))
             while True:
                 for part in itertools.islice(coming, _GROUPS - len(waiting)):
-                    waiting.append((len(part), _tree(client, work, part, size, names)))
+                    with translated():
+                        waiting.append((len(part), _tree(client, work, part, size, names)))
                 if not waiting:
                     return whole.total, whole.failures
                 count, future = waiting.popleft()
@@ -150,4 +152,7 @@ def _sum_there(work: bytes, sent: bytes) -> Sum[Any]:
 
 
 def _add_there(sums: list[Sum[Any]]) -> Sum[Any]:
-    return reduce(add, sums)
+    whole: Sum[Any] = Sum()  # the others may be asked for again, and stay as they are
+    for one in sums:
+        whole += one
+    return whole

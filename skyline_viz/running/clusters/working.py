@@ -3,7 +3,8 @@
 The scheduler is dask's. Photos travel as their names, eight at the most in a task of dask's; what
 comes back is what the function gives. The function itself is the result of a task, so that it is
 sent to a worker once, and a worker that comes later gets it, too. A few tasks a thread are under
-way at a time. The photos of a worker that is lost are done by others.
+way at a time; those that have ended wait on their workers for earlier ones, up to a number. The
+photos of a worker that is lost are done by others.
 """
 
 from __future__ import annotations
@@ -17,10 +18,12 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from queue import SimpleQueue
 from time import monotonic
 from typing import Any, TypeVar
 
 from skyline_viz.running.batch import BatchError, Failure, Named, attempt
+from skyline_viz.running.clusters.asking import every_worker
 from skyline_viz.running.clusters.requirements import ClusterError, check_here, dask, said, versions
 from skyline_viz.running.progress import ProgressBar
 from skyline_viz.running.sending import Unsendable, packed, unpacked
@@ -28,6 +31,7 @@ from skyline_viz.system.memory import keep_freed, limit_photos, photo_limit
 from skyline_viz.system.notes import heard_by, note
 
 _A_THREAD = 3  # tasks under way for each thread of a worker
+_KEPT = 16  # tasks for each, with those that have ended and wait for an earlier one to be told
 _MOST_A_TASK = 8  # photos: a task costs the scheduler and its client some milliseconds
 _COUNT_EVERY = 10.0  # seconds between two looks at how many threads there are
 Task = TypeVar("Task", bound=Named)
@@ -82,12 +86,12 @@ class Cluster:
             how: How another one is named, for the sentence.
 
         Raises:
-            ClusterError: One of them sees another one, or none.
+            ClusterError: One of them sees another one, or none, or does not answer.
         """
         with tempfile.NamedTemporaryFile(dir=folder, prefix=".shared-") as mark:
-            seen = self.client.run(_exists_there, str(folder / Path(mark.name).name))
+            seen = every_worker(self.client, _exists_there, str(folder / Path(mark.name).name))
         for worker, there in seen.items():
-            if not there:
+            if there is not True:
                 raise ClusterError(
                     f"the worker {worker} does not see the folder {folder}; {how} one that all "
                     f"machines share, by its whole path."
@@ -97,18 +101,28 @@ class Cluster:
         self, function: Callable[[Task], Value], tasks: Sequence[Task]
     ) -> Generator[Value | Failure, None, None]:
         waiting: deque[tuple[Sequence[Task], Any]] = deque()
+        under_way: set[str] = set()  # names of those tasks that have not ended, as far as told
+        ended: SimpleQueue[Any] = SimpleQueue()
         threads = _Threads(self.client)
-        size = max(1, min(_MOST_A_TASK, len(tasks) // threads.most()))
+        size = max(1, min(_MOST_A_TASK, len(tasks) // (_A_THREAD * threads.number())))
         coming = (tasks[first : first + size] for first in range(0, len(tasks), size))
         try:
             send = self._sender(function)
             while True:
-                room = threads.most() - len(waiting)  # under 0 where workers have gone
+                while not ended.empty():
+                    under_way.discard(ended.get().key)
+                number = threads.number()  # lower than before where workers have gone
+                room = min(_A_THREAD * number - len(under_way), _KEPT * number - len(waiting))
                 for part in itertools.islice(coming, max(0, room)):
-                    waiting.append((part, send(part)))
+                    waiting.append((part, future := send(part)))
+                    under_way.add(future.key)
+                    future.add_done_callback(ended.put)
                 if not waiting:
                     return
-                yield from self._of_part(send, *waiting.popleft())
+                if waiting[0][1].key in under_way:  # others go on behind a slow photo
+                    under_way.discard(ended.get().key)
+                else:
+                    yield from self._of_part(send, *waiting.popleft())
         except Unsendable as error:
             raise BatchError(str(error)) from error
         finally:
@@ -123,7 +137,8 @@ class Cluster:
         def send(part: Sequence[Task]) -> Any:  # noqa: ANN401
             told = packed([*part], part[0].name)
             key = f"photos-{run}-{next(numbers)}"
-            return self.client.submit(_attempt_there, work, told, key=key, pure=False)
+            with translated():
+                return self.client.submit(_attempt_there, work, told, key=key, pure=False)
 
         return send
 
@@ -154,19 +169,19 @@ class Cluster:
 
 
 class _Threads:
-    """How many tasks may be under way, as workers come and go."""
+    """How many threads there are, as workers come and go."""
 
     def __init__(self, client: Any) -> None:  # noqa: ANN401
         self._client = client
         self._seen = -_COUNT_EVERY
         self._number = 1
 
-    def most(self) -> int:
+    def number(self) -> int:
         if monotonic() - self._seen > _COUNT_EVERY:
             with contextlib.suppress(OSError, TimeoutError):  # of a scheduler that is busy
                 self._number = max(1, sum(self._client.nthreads().values()))
             self._seen = monotonic()
-        return _A_THREAD * self._number
+        return self._number
 
 
 def to_send(function: Callable[..., object]) -> bytes:
@@ -182,11 +197,12 @@ def to_send(function: Callable[..., object]) -> bytes:
 @contextlib.contextmanager
 def translated() -> Iterator[None]:
     """Turn what workers and their connection raise into `BatchError`, but for photos' own."""
+    client = dask("distributed").client
     try:
         yield
     except (ClusterError, Unsendable, ImportError) as error:
         raise BatchError(said(error)) from error
-    except (OSError, dask("distributed").client.FutureCancelledError) as error:
+    except (OSError, client.FutureCancelledError, client.ClosedClientError) as error:
         raise BatchError(
             "the cluster is gone; the same command goes on when it is back."
         ) from error

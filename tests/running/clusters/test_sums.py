@@ -1,5 +1,6 @@
 """Sums on a cluster: the same as in one process, past bad photos and lost workers."""
 
+import copy
 import os
 import signal
 from dataclasses import dataclass
@@ -74,7 +75,17 @@ def test_what_cannot_be_sent_is_named(two):
 
 def test_sums_of_failures_and_values_add_up():
     bad = Failure("bad", "x")
-    assert Sum(None, [bad]) + Sum(2) + Sum(3, [bad], ["n"]) == Sum(5, [bad, bad], ["n"])
+    sums = [Sum(None, [bad]), Sum(2), Sum(3, [bad], ["n"])]
+    before = copy.deepcopy(sums)
+    assert module._add_there(sums) == Sum(5, [bad, bad], ["n"])
+    assert sums == before  # those of a worker stay as they are
+
+
+def test_failures_are_kept_in_place():
+    whole = Sum()
+    kept = whole.failures
+    whole += Sum(None, [Failure("bad", "x")])
+    assert whole.failures is kept
 
 
 def test_a_cluster_trains_the_same_bank_to_the_bit(two):

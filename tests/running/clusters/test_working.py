@@ -1,6 +1,7 @@
 """A cluster of two: order, bad photos, lost workers, and work of other versions."""
 
 import os
+import select
 import signal
 from dataclasses import dataclass
 from functools import partial
@@ -106,3 +107,39 @@ def test_work_of_other_versions_is_refused_by_workers(two, tmp_path, monkeypatch
     monkeypatch.setattr(module, "versions", lambda: {**requirements.versions(), "numpy": "1.0"})
     with pytest.raises(BatchError, match=r"a worker has numpy .*, and this program 1\.0; install"):
         list(two.run(partial(work, tmp_path), [Photo("a")]))
+
+
+def held_up(folder, task):
+    """What a worker does: p0 waits for p60, and then says which ones have begun."""
+    begun, pipe = Path(folder), os.open(Path(folder, "pipe"), os.O_RDWR)
+    (begun / task.name).touch()
+    try:
+        if task.name == "p60":
+            os.write(pipe, b"x")
+        if task.name == "p0" and not select.select([pipe], [], [], 60)[0]:
+            return None
+    finally:
+        os.close(pipe)
+    return {int(path.name[1:]) for path in begun.glob("p[0-9]*")}
+
+
+def test_a_slow_photo_holds_up_those_far_behind_it_alone(two, tmp_path, monkeypatch):
+    """A worker has tasks of eight photos: three under way, and four with those that have ended."""
+    monkeypatch.setattr(module, "_KEPT", 4)
+    os.mkfifo(tmp_path / "pipe")
+    pipe = os.open(tmp_path / "pipe", os.O_RDWR)  # what p60 says stays in it until p0 listens
+    photos = [Photo(f"p{at}") for at in range(100)]
+    begun, *others = two.run(partial(held_up, tmp_path), photos)
+    os.close(pipe)
+    assert 60 in begun
+    assert max(begun) < 2 * 4 * 8
+    assert len(others) == 99
+
+
+def test_a_cluster_that_goes_away_is_said_to_be_gone(tmp_path):
+    with cluster_at("local:2") as cluster:
+        found = cluster.run(partial(work, tmp_path), [Photo(f"p{at}") for at in range(500)])
+        next(found)
+        cluster.client.close()
+        with pytest.raises(BatchError, match="the cluster is gone"):
+            list(found)
