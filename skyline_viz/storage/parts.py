@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from inspect import signature
+from pathlib import Path
 
-from skyline_viz.storage.addresses import StorageError, needed, scheme
+from skyline_viz.storage.addresses import StorageError, file_system, is_address, needed, scheme
 
 WEB = ("http://", "https://")
 """Addresses of web servers, the only ones that have queries."""
@@ -23,6 +24,28 @@ def file_part(address: str) -> str:
     if scheme(inner) in WEB:
         return inner.partition("?")[0]
     return inner.partition(_VERSION)[0] if scheme(inner) in _VERSIONED else inner
+
+
+def is_within(inner: str, outer: str) -> bool:
+    """Whether a path or an address leads below another one, or to it.
+
+    >>> is_within("s3://b/t.parquet/all.parquet", "s3://b/t.parquet/"), is_within("a/b", "c")
+    (True, False)
+    """
+    within, folder = _place(inner), _place(outer)
+    return within[: len(folder)] == folder
+
+
+def _place(text: str) -> tuple[str, ...]:
+    """What leads to a path or an address, part by part, however it is spelt."""
+    if is_address(text):
+        found, path = file_system(text)
+        names = (found.protocol,) if isinstance(found.protocol, str) else tuple(found.protocol)
+        if "file" not in names:
+            _, chain, around = text.partition("::")
+            return (names[0], chain + around, *filter(None, path.split("/")))
+        text = path
+    return ("file", "", *Path(text).resolve().parts)
 
 
 def refuse_odd_chain(address: str) -> None:

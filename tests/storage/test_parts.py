@@ -3,7 +3,7 @@
 import pytest
 
 from skyline_viz.storage.addresses import StorageError
-from skyline_viz.storage.parts import file_part, refuse_odd_chain
+from skyline_viz.storage.parts import file_part, is_within, refuse_odd_chain
 
 
 @pytest.mark.parametrize(
@@ -31,3 +31,25 @@ def test_archives_and_caches_read_from_another_storage(address):
 def test_other_storages_do_not(address):
     with pytest.raises(StorageError, match="cannot be read: what stands before :: is no archive"):
         refuse_odd_chain(address)
+
+
+@pytest.mark.parametrize(
+    ("inner", "within"),
+    [
+        ("t/a.parquet", True),
+        ("t", True),
+        ("./x/../t/a", True),
+        ("ta/b", False),
+        ("file://{here}/t/a", True),
+        ("memory://t/a", False),
+    ],
+)
+def test_a_path_is_within_a_folder_however_it_is_spelt(tmp_path, monkeypatch, inner, within):
+    monkeypatch.chdir(tmp_path)
+    assert is_within(inner.format(here=tmp_path), "t") == within
+
+
+def test_an_address_is_within_one_of_its_own_storage():
+    assert is_within("memory://b/t//a.parquet", "memory:///b/t/")
+    assert not is_within("memory://b/ta", "memory://b/t")
+    assert not is_within("t/a", "memory://t")
