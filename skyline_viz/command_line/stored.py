@@ -77,8 +77,12 @@ def _listed(addresses: Sequence[str]) -> list[StoredPhoto]:
     found: dict[str, StoredPhoto] = {}
     for word in addresses:
         for one in _photos(word):
-            found.setdefault(one.address, StoredPhoto(one.address, one.size, one.stamp))
+            found.setdefault(one.address, _travelling(one))
     return [*found.values()]
+
+
+def _travelling(one: Listed) -> StoredPhoto:
+    return StoredPhoto(one.address, one.size, one.stamp, one.fault)
 
 
 def _photos(address: str) -> Iterator[Listed]:

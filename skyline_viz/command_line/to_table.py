@@ -13,7 +13,7 @@ from skyline_viz.command_line.messages import UsageError, counted, status_after,
 from skyline_viz.command_line.sizes import foresee
 from skyline_viz.command_line.stored import photos_named
 from skyline_viz.running.batch import run
-from skyline_viz.running.line_table import SUFFIX
+from skyline_viz.running.line_table import SUFFIX, arrow
 from skyline_viz.running.shards import Shard
 from skyline_viz.storage.addresses import is_address
 from skyline_viz.storage.uploads import uploaded
@@ -47,6 +47,7 @@ def table_at(out: str, shard: Shard | None) -> Iterator[Path]:
         UsageError: See `table_of`.
         StorageError: The address cannot be written.
     """
+    arrow()  # where that is missing, nothing is left behind
     if not is_address(out):
         yield table_of(Path(out), shard)
         return
@@ -90,9 +91,11 @@ def detect_to_table(
         cluster: Address of a cluster, or ``local:N``.
         shard: The part to do.
     """
-    from skyline_viz.running.line_run import detect_into
+    from skyline_viz.running.line_run import detect_into, nameable
 
+    arrow()  # before anything is begun
     photos, files = photos_named(words)
+    photos = nameable(photos)
     if shard is not None:
         photos = [one for one in photos if shard.holds(one.name)]
         files = [one for one in files if shard.holds(one.where)]
@@ -103,6 +106,9 @@ def detect_to_table(
     if done.known:
         were = "was" if done.known == 1 else "were"
         tell(f"{done.known} of {counted(done.photos, 'photo')} {were} done already.")
+    if done.gone:
+        rows = "1 row" if done.gone == 1 else f"{done.gone} rows"
+        tell(f"{rows} of the earlier table went: of photos that this command does not name.")
     where = out if is_address(out) else table
     tell(f"{counted(done.photos - len(done.failures), 'skyline')} in {where}")
     return status_after([*done.failures, *done.unseen])

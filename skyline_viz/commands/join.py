@@ -38,12 +38,18 @@ class Join:
         from skyline_viz.running.line_table import SUFFIX
         from skyline_viz.running.shards import join
         from skyline_viz.storage.addresses import is_address
+        from skyline_viz.storage.parts import is_within
 
         remote, out, folder = is_address(self.out), Path(self.out), local(self.folder)
         if not folder.is_dir():
             raise UsageError(f"{self.folder} is no folder of shards.")
         if lost := lost_in(folder):
             raise UsageError(next(iter(lost.values())))
+        if is_within(self.out, self.folder):
+            raise UsageError(
+                f"{self.out} is the folder of the shards or lies in it, and that is to hold shards "
+                f"alone; name another --out."
+            )
         if out.suffix.lower() == ".npz" and not remote and not out.is_dir():
             return self._train(folder)
         if out.suffix.lower() != SUFFIX or out.is_dir():

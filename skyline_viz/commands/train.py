@@ -205,7 +205,7 @@ class Train:
         if self.pretrained is not None:
             raise UsageError("--pretrained is for FCNs and SegNet, not for our filter bank.")
         from skyline_viz.evaluation.training_runs import gather_several
-        from skyline_viz.running.gram_shards import SUFFIX, Gathered, write_gathered
+        from skyline_viz.running.gram_shards import Gathered, write_gathered
 
         training = self.training
         if method.config != DetectorConfig() and (
@@ -233,8 +233,8 @@ class Train:
         if shard is None:
             save_trained(self.out, method, bank, photos, training)
             return status_after(failures)
-        file = self.out / shard.file_of(SUFFIX)
-        write_gathered(file, Gathered(self.method, training, self.seed, photos, sums))
+        gathered = Gathered(self.method, training, self.seed, photos, sums)
+        file = write_gathered(self.out, shard, gathered)
         used = sum(one.images for one in sums.values())
         tell_done(f"Gram matrices of {counted(used, 'photo')} in {file}")
         return status_after(failures)

@@ -38,6 +38,7 @@ from skyline_viz.datasets.parquet_files import files_of, parquet
 from skyline_viz.datasets.small_groups import columns_of, in_small_groups
 from skyline_viz.datasets.table_item import RowPlace, TableItem, row_group
 from skyline_viz.storage.addresses import is_address
+from skyline_viz.storage.parts import file_part
 from skyline_viz.storage.stored_photo import StoredPhoto
 from skyline_viz.system.names import listed
 
@@ -134,8 +135,8 @@ def place_of_photo(where: str, photo: str) -> str:
     if is_address(photo) or Path(photo).is_absolute():
         return photo
     if is_address(where):
-        inner, chain, around = where.partition("::")
-        scheme, _, path = inner.partition("?")[0].partition("://")
+        _, chain, around = where.partition("::")
+        scheme, _, path = file_part(where).partition("://")
         beside = posixpath.normpath(posixpath.join(posixpath.dirname(path), photo))
         return f"{scheme}://{beside}{chain}{around}"
     beside = os.path.normpath(Path(where).parent / photo)

@@ -1,6 +1,7 @@
 """Gram matrices as files: what a shard of a training has gathered, and what all of them add up to.
 
-A file is one of `system.headed_npz`. Its header says under ``gathered`` what was gathered and how;
+A file is one of `system.headed_npz`. Its header says under ``gathered`` what was gathered and how,
+and under ``shard`` which one it is, such as 3/8, as its name might have been changed since;
 of the data set number K it holds ``sums_K``, ``samples_K`` and the fingerprints ``seen_K``.
 """
 
@@ -21,7 +22,7 @@ from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.files import replacing
 from skyline_viz.running.line_table import TableError
 from skyline_viz.running.resume import digest_of
-from skyline_viz.running.shards import shards_in
+from skyline_viz.running.shards import Shard, check_own, shards_in
 from skyline_viz.system import headed_npz
 from skyline_viz.system.headed_npz import HeadedNpz, NpzError, opened
 from skyline_viz.training import GramMatrices
@@ -57,8 +58,8 @@ class Gathered:
         return {**told, "photos": self.photos, "sets": [*self.sets], "program": digest_of()}
 
 
-def write_gathered(path: Path, gathered: Gathered) -> None:
-    """Write what a shard has gathered, whole or not at all.
+def write_gathered(folder: Path, shard: Shard, gathered: Gathered) -> Path:
+    """Write what a shard has gathered into a folder, whole or not at all; return the file.
 
     Raises:
         OSError: The disk is full or read-only.
@@ -71,22 +72,25 @@ def write_gathered(path: Path, gathered: Gathered) -> None:
         arrays[f"samples_{number}"] = gram.samples
         arrays[f"seen_{number}"] = np.frombuffer(prints, np.uint8)
         images.append(gram.images)
-    header = {"gathered": {**gathered.about(), "images": images}}
+    header = {"shard": str(shard), "gathered": {**gathered.about(), "images": images}}
+    path = folder / shard.file_of(SUFFIX)
     with replacing(path) as temporary, temporary.open("wb") as file:
         headed_npz.write(file, header, arrays)
+    return path
 
 
 def joined(folder: Path) -> Gathered:
     """What all shards of a folder have gathered together.
 
     Raises:
-        TableError: A shard is missing or damaged, or was gathered otherwise than the first one.
+        TableError: A shard is missing or damaged, is another one than its name says, or was
+            gathered otherwise than the first one.
         OSError: A file cannot be read.
     """
     first: tuple[Path, Gathered, dict[str, Any]] | None = None
     sets: dict[str, GramMatrices] = {}
-    for _, path in shards_in(folder, SUFFIX):
-        gathered, about = _read(path)
+    for shard, path in shards_in(folder, SUFFIX):
+        gathered, about = _read(path, shard)
         if first is None:
             first, sets = (path, gathered, about), dict(gathered.sets)
             continue
@@ -98,9 +102,10 @@ def joined(folder: Path) -> Gathered:
     return Gathered(one.method, one.training, one.seed, one.photos, sets)
 
 
-def _read(path: Path) -> tuple[Gathered, dict[str, Any]]:
+def _read(path: Path, shard: Shard) -> tuple[Gathered, dict[str, Any]]:
     try:
         with opened(path, headed_npz.MOST_BYTES) as file:
+            check_own(path, shard, file.header.get("shard"))
             about = dict(file.header["gathered"])
             images = about.pop("images")
             told = dict(about["training"])
@@ -112,6 +117,8 @@ def _read(path: Path) -> tuple[Gathered, dict[str, Any]]:
                 for number, name in enumerate(about["sets"])
             }
             settings = str(about["method"]), training, int(about["seed"]), int(about["photos"])
+    except TableError:
+        raise
     except (NpzError, LookupError, TypeError, ValueError, AttributeError) as error:
         raise TableError(f"{path} is damaged, or no shard of a training.") from error
     return Gathered(*settings, sets), about

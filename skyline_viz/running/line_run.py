@@ -18,6 +18,7 @@ from skyline_viz.running.line_store import LineStore, line_store, store_of
 from skyline_viz.running.line_table import (
     failed_row,
     found_row,
+    photos_in,
     read_about,
     read_rows,
     stamped_row,
@@ -27,6 +28,7 @@ from skyline_viz.running.resume import digest_of, digest_of_method
 from skyline_viz.storage.addresses import UnseenError
 from skyline_viz.storage.stored_photo import StoredPhoto
 from skyline_viz.system.memory import photo_limit
+from skyline_viz.system.names import printable
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +87,39 @@ class Summary:
     unseen: list[Failure]
     """Photos that were done, and could not be looked at again."""
 
+    gone: int = 0
+    """Rows of the table that was there which are of other photos, and are no longer in it."""
+
+
+def nameable(photos: Sequence[StoredPhoto]) -> list[StoredPhoto]:
+    r"""Photos that a table can name: one whose name is no text is missing, by an escaped name.
+
+    Examples:
+        >>> nameable([StoredPhoto("b\udcff.jpg")])[0].missing
+        'b\\xff.jpg has a name that is no text, and a table holds text; rename it.'
+    """
+    taken = {one.name for one in photos}
+    named = []
+    for one in photos:
+        name = one.name
+        if not _is_text(name):
+            name = printable(name)
+            while name in taken:
+                name += "'"
+            taken.add(name)
+            reason = f"{name} has a name that is no text, and a table holds text; rename it."
+            one = StoredPhoto(name, missing=reason)  # noqa: PLW2901 - in place of it
+        named.append(one)
+    return named
+
+
+def _is_text(name: str) -> bool:
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
 
 def digest_of_lines(method: Method) -> str:
     """Digest of all that a row is made from, but for its photo."""
@@ -102,7 +137,7 @@ def detect_into(
 
     Args:
         table: Where to; what it holds already of the same photos and method is taken over.
-        photos: The photos.
+        photos: The photos, see `nameable`.
         method: What detects.
         run: How to work.
         about: What to say about the table, see `write_lines`.
@@ -117,8 +152,12 @@ def detect_into(
     failures: dict[str, Failure] = {}
     unseen: list[Failure] = []
     with line_store(table, digest) as store:
-        if table.exists() and read_about(table).get("digest") == digest:
-            _take_over(store, table)
+        gone = 0
+        if table.exists():
+            if read_about(table).get("digest") == digest:
+                _take_over(store, table)
+            names = {one.name for one in photos}
+            gone = sum(one not in names for one in photos_in(table))
         tasks = [*_to_do(store, photos)]
         known = len(photos) - len(tasks)
         for outcome in run(partial(find_line, method), tasks):
@@ -138,7 +177,7 @@ def detect_into(
         rows = _rows(store, photos, failures)
         write_lines(table, rows, {**about, "digest": digest})
     store_of(table).unlink(missing_ok=True)
-    return Summary(len(photos), known, [*failures.values()], unseen)
+    return Summary(len(photos), known, [*failures.values()], unseen, gone)
 
 
 def find_line(method: Method, task: LineTask) -> FoundLine:

@@ -82,7 +82,8 @@ def line_store(table: Path, digest: str) -> Iterator[LineStore]:
         digest: Of all that a row is made from, but for its photo.
 
     Raises:
-        StoreError: Another run writes the table, or the file is damaged.
+        StoreError: Another run writes the table, it cannot be written there, or the file is
+            damaged.
         OSError: The disk is full.
     """
     file = store_of(table)
@@ -107,6 +108,17 @@ def line_store(table: Path, digest: str) -> Iterator[LineStore]:
             raise StoreError(f"another run is writing {table}.") from error
         if "full" in str(error):
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(file)) from error
-        raise StoreError(f"{file} cannot be used: {error}.") from error
+        raise StoreError(f"{table} cannot be written: {_reason(file) or error}.") from error
     except sqlite3.DatabaseError as error:
         raise StoreError(f"{file} is damaged; remove it to begin anew.") from error
+
+
+def _reason(file: Path) -> str:
+    """Why a file cannot be written; empty where it can."""
+    try:
+        file.open("ab").close()
+    except FileNotFoundError:
+        return f"{file.parent} takes no file"
+    except OSError as error:
+        return (error.strerror or str(error)).lower()
+    return ""

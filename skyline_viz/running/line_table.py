@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,6 +32,7 @@ import numpy as np
 
 from skyline_viz.files import replacing
 from skyline_viz.storage.addresses import needed
+from skyline_viz.system.names import printable
 
 if TYPE_CHECKING:
     from skyline_viz.detection import Detection
@@ -116,7 +118,7 @@ def stamped_row(row: bytes, stamp: str) -> bytes:
 
 def failed_row(photo: str, reason: str) -> bytes:
     """The row of a photo that failed."""
-    return _packed({"photo": photo, "error": reason})
+    return _packed({"photo": photo, "error": printable(reason)})
 
 
 def write_lines(path: Path, rows: Iterable[bytes], about: Mapping[str, object]) -> int:
@@ -130,7 +132,8 @@ def write_lines(path: Path, rows: Iterable[bytes], about: Mapping[str, object]) 
     Raises:
         OSError: The disk is full or read-only.
     """
-    told = schema().with_metadata({ABOUT: json.dumps(about, ensure_ascii=False)})
+    text = json.dumps(about, ensure_ascii=False)
+    told = schema().with_metadata({ABOUT: text.encode(errors="backslashreplace")})
     count = 0
     with replacing(path) as temporary, _writer(temporary, told) as writer:
         waiting: list[Any] = []
@@ -168,6 +171,19 @@ def read_about(path: Path) -> dict[str, Any]:
     return about
 
 
+def photos_in(path: Path) -> Iterator[str]:
+    """The name of each photo of a table.
+
+    Raises:
+        TableError: The table is damaged.
+        OSError: It cannot be read.
+    """
+    parquet = arrow("pyarrow.parquet")
+    with _damage_told(path), parquet.ParquetFile(path) as file:
+        for batch in file.iter_batches(_GROUP, columns=["photo"]):
+            yield from batch.column("photo").to_pylist()
+
+
 def read_rows(path: Path) -> Iterator[tuple[dict[str, Any], bytes]]:
     """Photo, digest, stamp and error of each row of a table, and the row itself.
 
@@ -176,16 +192,22 @@ def read_rows(path: Path) -> Iterator[tuple[dict[str, Any], bytes]]:
     """
     parquet = arrow("pyarrow.parquet")
     names = ["photo", "sha256", "stamp", "error"]
+    with _damage_told(path), parquet.ParquetFile(path) as file:
+        for batch in file.iter_batches(_GROUP):
+            plain = batch.replace_schema_metadata(None)
+            for number, known in enumerate(batch.select(names).to_pylist()):
+                yield known, plain.slice(number, 1).serialize().to_pybytes()
+
+
+@contextmanager
+def _damage_told(path: Path) -> Iterator[None]:
+    """Say of whatever a damaged table raises that it is damaged."""
     try:
-        with parquet.ParquetFile(path) as file:
-            for batch in file.iter_batches(_GROUP):
-                plain = batch.replace_schema_metadata(None)
-                for number, known in enumerate(batch.select(names).to_pylist()):
-                    yield known, plain.slice(number, 1).serialize().to_pybytes()
-    except OSError as error:
-        if error.errno is not None:
+        yield
+    except (OSError, ValueError, arrow().ArrowException) as error:
+        if isinstance(error, OSError) and error.errno is not None:
             raise
-        raise TableError(f"{path} is damaged: {error}.") from error
+        raise TableError(f"{path} is damaged.") from error
 
 
 def _margin_names() -> list[str]:

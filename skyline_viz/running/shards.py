@@ -92,17 +92,36 @@ def shards_in(folder: Path, suffix: str = SUFFIX) -> list[tuple[Shard, Path]]:
     return found
 
 
+def check_own(path: Path, shard: Shard, told: object) -> None:
+    """Make sure that a file holds the shard that its name says.
+
+    Args:
+        path: The file.
+        shard: The shard of its name.
+        told: What stands in it.
+
+    Raises:
+        TableError: It is another one, or nothing is told.
+    """
+    if told is None:
+        raise TableError(f"{path} is a shard of another version, and has to be made again.")
+    if told != str(shard):
+        raise TableError(f"{path} holds the shard {told}, and by its name it is {shard}.")
+
+
 def join(folder: Path, out: Path) -> int:
     """Write the shards of a folder as one table; return the number of photos.
 
     Raises:
-        TableError: A shard is missing or damaged, was made otherwise than the first one, or holds
-            a photo that is not its own or that it holds already.
+        TableError: A shard is missing or damaged, is another one than its name says, was made
+            otherwise than the first one, or holds a photo that is not its own, or holds it twice.
         OSError: A file cannot be read or written.
     """
     shards = shards_in(folder)
     abouts = [read_about(path) for _, path in shards]
-    for (_, path), told in zip(shards, abouts, strict=True):
+    for (shard, path), told in zip(shards, abouts, strict=True):
+        if "shard" in told:
+            check_own(path, shard, told["shard"])
         if told.get("digest") != abouts[0].get("digest"):
             raise TableError(f"{path} was made by another method or version than {shards[0][1]}.")
     about: dict[str, Any] = {**abouts[0], "shards": len(shards)}

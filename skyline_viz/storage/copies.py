@@ -20,14 +20,17 @@ import sys
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 from typing import Any, Protocol, Self
+from urllib.parse import quote
 
 from skyline_viz.files import make_folder, replacing, write_text
 from skyline_viz.storage.addresses import StorageError, scheme
 from skyline_viz.storage.copy_names import name_of, remember
 from skyline_viz.storage.fetching import OutageError, fetch
 from skyline_viz.storage.listing import Listed, files_at, is_photo
+from skyline_viz.storage.parts import WEB, file_part
 from skyline_viz.system.memory import in_words
 
 CACHE = "SKYLINE_VIZ_CACHE"
@@ -40,8 +43,8 @@ _STATE = ".copied.json"  # hidden, so that no data set holds it
 _THREADS = 8  # downloads at a time
 _BROKEN_OFF = 2 * _THREADS  # downloads one after the other that are an outage
 _MOST_OF_DISK = 0.9  # of what is free
-_WEB = ("http://", "https://")  # where nothing but its name tells a file from a folder
-_WEB_FILES = (".csv", ".json", ".jsonl", ".parquet", ".xml")
+_WEB_FILES = (".csv", ".json", ".jsonl", ".parquet", ".xml")  # there names alone tell of files
+_LONGEST = 200  # bytes of a name in a folder
 _NOTHING = {".csv": "column,row,visible\n", ".json": '{"format": "skyline"}'}
 """Lines of skylines without a column: by how they begin these are told from other texts."""
 
@@ -74,7 +77,7 @@ def copied(address: str, bar: Callable[[int, str], Bar] | None = None) -> Path:
     home = caches() / hashlib.sha256(address.encode()).hexdigest()[:16]
     target = home / name_of(address)
     remember(target, address)
-    if _is_file(address.partition("::")[0]):
+    if _is_file(file_part(address)):
         _write(target, Listed(address))
         return target
     files = dict(files_at(address))
@@ -83,10 +86,8 @@ def copied(address: str, bar: Callable[[int, str], Bar] | None = None) -> Path:
     if alone := files.get(""):
         _write(target, alone)
         return target
-    if odd := [one for one in files if _leads_out(one)]:
-        raise StorageError(f"{address} holds {odd[0]}, which is no name of a file here.")
     _forget_old(home)
-    _bring_up_to_date(target, files, address, bar)
+    _bring_up_to_date(target, _by_names_here(files), address, bar)
     return target
 
 
@@ -175,19 +176,51 @@ class _Silent:
 
 def _is_file(inner: str) -> bool:
     """Whether an address is told to be a file by its name, so that nothing is asked about it."""
-    ending = PurePosixPath(inner.partition("?")[0]).suffix.lower()
-    return is_photo(inner) or (scheme(inner) in _WEB and ending in _WEB_FILES)
+    ending = PurePosixPath(inner).suffix.lower()
+    return is_photo(inner) or (scheme(inner) in WEB and ending in _WEB_FILES)
 
 
 def _write(path: Path, one: Listed) -> None:
+    if one.fault:
+        raise StorageError(one.fault)
     data = fetch(one.address, one.size)
     with replacing(path) as temporary:
         temporary.write_bytes(data)
 
 
-def _leads_out(own: str) -> bool:
-    parts = PurePosixPath(own).parts
-    return not parts or ".." in parts or "\\" in own or ":" in own or "\0" in own
+def _by_names_here(files: Mapping[str, Listed]) -> dict[str, Listed]:
+    """Files by names that they can have here; those that have another one there are lost."""
+    above = {str(one) for own in files for one in PurePosixPath(own).parents}
+    named: dict[str, Listed] = {}
+    for own, one in files.items():
+        if not _is_odd(own) and own not in above:
+            named[own] = one
+            continue
+        here = "/".join(map(_spelt, own.split("/")))
+        while here in files or here in above or here in named:
+            here = f"%{here}"
+        reason = f"{one.address} has a name that no file can have here."
+        named[here] = replace(one, fault=one.fault or reason)
+    return named
+
+
+def _is_odd(own: str) -> bool:
+    """Whether no file here can have a path, or none that is the same everywhere."""
+    parts = own.split("/")
+    outside = {"", ".", ".."} & {*parts} or any(one in own for one in "\\:\0")
+    return bool(outside) or any(len(one.encode(errors="replace")) > _LONGEST for one in parts)
+
+
+def _spelt(part: str) -> str:
+    """A name that a file can have here, with its ending."""
+    stem, dot, ending = part.rpartition(".")
+    if part in ("", ".", ".."):
+        return "%2E" * len(part) or "%2F"
+    plain = quote(part, safe=" ")
+    if len(plain) <= _LONGEST:
+        return plain
+    digest = hashlib.sha256(part.encode(errors="surrogatepass")).hexdigest()[:16]
+    return f"{quote(stem[:20], safe=' ')}-{digest}{dot}{quote(ending[:20], safe=' ')}"
 
 
 def caches() -> Path:

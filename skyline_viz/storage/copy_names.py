@@ -6,6 +6,8 @@ import re
 from functools import partial
 from pathlib import Path, PurePosixPath
 
+from skyline_viz.storage.parts import file_part
+
 _SAID_OF = r"((?:[/\\][^\s:,;\"]*[^\s:,;.\"])?)"  # a path below, without what ends a sentence
 
 _copies: dict[str, str] = {}
@@ -21,7 +23,8 @@ def name_of(address: str) -> str:
     """
     inner, _, around = address.partition("::")
     below = inner.partition("//")[2]
-    name = PurePosixPath(inner.partition("?")[0]).name if below else PurePosixPath(around).stem
+    whole = PurePosixPath(file_part(inner if below else around))
+    name = whole.name if below else whole.stem
     return name or "photos"
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from skyline_viz.picture_files.kinds import PHOTO_SUFFIXES
 from skyline_viz.storage.addresses import StorageError, address_of, file_system
 from skyline_viz.storage.fetching import persistent
+from skyline_viz.storage.parts import file_part, refuse_odd_chain
 
 _STAMPS = ("ETag", "etag", "md5Hash", "crc32c", "content_md5", "md5", "CRC")
 """What storages tell of a file's content, without its being read."""
@@ -34,6 +35,9 @@ class Listed:
     below: str = field(default="", compare=False)
     """Its path below what was listed; empty for that itself."""
 
+    fault: str = ""
+    """Why no address leads to it, in a sentence; empty where one does."""
+
 
 def photos_at(address: str) -> Iterator[Listed]:
     """The photos at an address, folder by folder and by name.
@@ -45,12 +49,13 @@ def photos_at(address: str) -> Iterator[Listed]:
         StorageError: It holds no photo, is missing, or cannot be listed.
     """
     file_system(address)  # nothing knows it, perhaps
-    if is_photo(address.partition("::")[0]):
+    refuse_odd_chain(address)
+    if is_photo(file_part(address)):
         yield Listed(address)
         return
     some = False
     for own, one in files_at(address):
-        if is_photo(own):
+        if is_photo(own if one.fault else file_part(one.address)):
             some = True
             yield replace(one, below=own)
     if not some:
@@ -66,10 +71,13 @@ def files_at(address: str) -> Iterator[tuple[str, Listed]]:
         StorageError: It is missing, or cannot be listed.
     """
     _refuse_archive(address)
+    refuse_odd_chain(address)
     found, path = file_system(address)
     for name, about in files_below(found, path, address):
-        own = name.strip("/").removeprefix(path.strip("/")).strip("/")
-        yield own, Listed(address_of(found, name, address), _size(about), stamp_of(about))
+        own = name.strip("/").removeprefix(path.strip("/")).removeprefix("/")
+        whole = address_of(found, name, address)
+        fault = _fault(found, name, whole)
+        yield own, Listed(whole, _size(about), stamp_of(about), fault=fault)
 
 
 def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapping[str, Any]]]:  # noqa: ANN401
@@ -80,7 +88,7 @@ def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapp
     Raises:
         StorageError: It is missing, or cannot be listed.
     """
-    folders = [path]
+    folders, seen = [path], set[str]()
     while folders:
         place = folders.pop()
         found.invalidate_cache()  # an earlier listing may be of other files, and takes a kB a file
@@ -92,13 +100,57 @@ def files_below(found: Any, path: str, address: str) -> Iterator[tuple[str, Mapp
             name = str(about["name"]).rstrip("/")
             itself = name.strip("/") == place.strip("/")
             alone = about["type"] == "file" and len(inside) == 1 and about.get("size")
-            if _is_hidden(name) or (itself and not alone):
+            if itself and about["type"] == "directory" and hasattr(found, "split_path"):
+                yield from _below_nameless(found, place, address)
+            if _is_hidden(found, name) or (itself and not alone):
                 continue
             if about["type"] == "directory":
                 deeper.append(str(about["name"]))  # web servers tell folders by the slash
             else:
+                if _members(found):
+                    seen.add(name)
                 yield name, about
         folders += reversed(deeper)
+    # Of archives no listing of a folder shows ``./a.jpg``, or ``a//b.jpg``.
+    start = f"{path.strip('/')}/".lstrip("/")
+    for name, about in sorted(_members(found).items()):
+        if name in seen or about["type"] != "file" or not name.startswith(start):
+            continue
+        if not any(_is_hidden(found, one) for one in name.removeprefix(start).split("/")):
+            yield name, about
+
+
+def _members(found: Any) -> Mapping[str, Any]:  # noqa: ANN401 - file systems have no types
+    """All that an archive holds, when it has been listed; nothing of other storages."""
+    return getattr(found, "dir_cache", None) or {}
+
+
+def _below_nameless(found: Any, place: str, address: str) -> Iterator[tuple[str, Any]]:  # noqa: ANN401
+    """Files of a bucket in folders without a name, ``place//``, which cannot be listed by that.
+
+    Raises:
+        StorageError: They cannot be listed.
+    """
+    start = place.rstrip("/")
+    listed = persistent(partial(found.find, start, detail=True, prefix="/"), address, "listed")
+    for name, about in sorted(listed.items()):
+        below = name.removeprefix(start)
+        if below.startswith("//") and not any(_is_hidden(found, one) for one in below.split("/")):
+            yield name, about
+
+
+def _has_keys(found: Any) -> bool:  # noqa: ANN401 - file systems have no types
+    """Whether any text may be the name of a file, as in buckets and archives."""
+    return hasattr(found, "split_path") or hasattr(found, "dir_cache")
+
+
+def _fault(found: Any, name: str, address: str) -> str:  # noqa: ANN401
+    """Why no address leads to a file, in a sentence; empty where one does."""
+    if "::" in name:
+        return f"{address} cannot be downloaded: a name that holds :: has no address."
+    if hasattr(found, "split_path") and "/".join(found.split_path(name)[:2]) != name:
+        return f"{address} cannot be downloaded: its address means another file."
+    return ""
 
 
 def _refuse_archive(address: str) -> None:
@@ -107,19 +159,20 @@ def _refuse_archive(address: str) -> None:
     Raises:
         StorageError: It is.
     """
-    last = address.partition("::")[0].partition("?")[0].lower()
+    last = file_part(address).lower()
     kind = next((kind for kind, endings in _ARCHIVES.items() if last.endswith(endings)), None)
     if kind:
         raise StorageError(f"{address} is an archive; what is in it is {kind}://::{address}.")
 
 
-def _is_hidden(name: str) -> bool:
-    return posixpath.basename(name).startswith(".")
+def _is_hidden(found: Any, name: str) -> bool:  # noqa: ANN401 - file systems have no types
+    last = posixpath.basename(name)
+    return last.startswith(".") and not (last in (".", "..") and _has_keys(found))
 
 
 def is_photo(name: str) -> bool:
-    """Whether an address, or a path in a storage, ends like a photo."""
-    last = name.split("?", 1)[0].rsplit("/", 1)[-1]
+    """Whether a path in a storage, or an address as `file_part` gives it, ends like a photo."""
+    last = name.rsplit("/", 1)[-1]
     return posixpath.splitext(last)[1].lower() in PHOTO_SUFFIXES
 
 

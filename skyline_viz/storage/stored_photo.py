@@ -14,6 +14,7 @@ from skyline_viz.arrays import U8
 from skyline_viz.photo import PhotoError, photo_from, reading
 from skyline_viz.storage.addresses import is_address
 from skyline_viz.storage.fetching import fetch
+from skyline_viz.storage.parts import file_part, refuse_odd_chain
 from skyline_viz.system.notes import note
 
 
@@ -44,12 +45,12 @@ class StoredPhoto:
 
         >>> StoredPhoto("zip://alps/eiger.jpg::s3://photos/all.zip").stem
         'eiger'
-        >>> StoredPhoto("https://host/a.b.png?raw=1").stem
-        'a.b'
+        >>> StoredPhoto("https://host/a.b.png?raw=1").stem, StoredPhoto("s3://photos/q?x.png").stem
+        ('a.b', 'q?x')
         """
         inner = self.name
         if is_address(self.name):
-            inner = self.name.partition("::")[0].partition("?")[0]
+            inner = file_part(self.name)
         return Path(inner).stem
 
     @contextmanager
@@ -66,6 +67,7 @@ class StoredPhoto:
             with reading(Path(self.name)) as file:
                 yield file
             return
+        refuse_odd_chain(self.name)
         data = fetch(self.name, self.size)
         if not data:
             raise PhotoError(f"{self.name} is empty (0 bytes).")

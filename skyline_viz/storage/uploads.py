@@ -1,13 +1,15 @@
 """A file that is made on this machine and goes to an address when it is whole.
 
-What another run has put there in the meantime is not overwritten. Beside the file lies a note of
-what was at the address when it was begun. Storages have no lock, so that two runs that end within
-the same moment are not told apart.
+Before it is begun a small file is written beside the address and removed, as a trial. What another
+run has put there in the meantime is not overwritten. Beside the file lies a note of what was at the
+address when it was begun. Storages have no lock, so that two runs that end within the same moment
+are not told apart.
 """
 
 from __future__ import annotations
 
 import hashlib
+import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -15,10 +17,14 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from skyline_viz.files import make_folder, replacing, write_text
-from skyline_viz.storage.addresses import StorageError, file_system
+from skyline_viz.storage.addresses import StorageError, address_of, file_system, scheme
 from skyline_viz.storage.copies import caches
 from skyline_viz.storage.fetching import persistent
 from skyline_viz.storage.listing import stamp_of
+from skyline_viz.storage.parts import WEB
+from skyline_viz.system.notes import note
+
+_UNNAMEABLE = "Parameter validation failed"  # what S3 says of what no bucket can be called
 
 _CHANGED = ("LastModified", "updated", "last_modified", "mtime", "created")
 """What storages tell of the time of a file's last change."""
@@ -36,10 +42,12 @@ def uploaded(address: str) -> Iterator[Path]:
         OSError: The disk is full or read-only.
     """
     found, path = file_system(address)
+    _refuse_place(found, path, address)
     home = caches() / "tables" / hashlib.sha256(address.encode()).hexdigest()[:16]
     local = home / PurePosixPath(path).name
     note = home / "there.txt"
     make_folder(home)
+    _try_to_write(found, path, address)
     there = _state(found, path, address)
     if local.exists():  # it was not uploaded the last time
         _check(there, note.read_text(encoding="utf-8") if note.exists() else "", address, local)
@@ -58,6 +66,42 @@ def uploaded(address: str) -> Iterator[Path]:
         raise StorageError(f"{said}; what was found is in {local}.") from error
     local.unlink()
     note.unlink()
+
+
+def _refuse_place(found: Any, path: str, address: str) -> None:  # noqa: ANN401 - file systems have no types
+    """Refuse what no file can be written to, whatever may be done there.
+
+    Raises:
+        StorageError: It is a web server, an archive, or a bucket without a file in it.
+    """
+    if scheme(address) in WEB:
+        raise StorageError(f"{address} cannot be written: web servers give files, and take none.")
+    if hasattr(found, "dir_cache"):
+        raise StorageError(f"{address} cannot be written: archives are read alone.")
+    if hasattr(found, "split_path") and not found.split_path(path)[1]:
+        raise StorageError(f"{address} cannot be written: it names a bucket, and no file in it.")
+
+
+def _try_to_write(found: Any, path: str, address: str) -> None:  # noqa: ANN401
+    """Write a small file beside the one that is to come, and remove it.
+
+    Raises:
+        StorageError: Nothing can be written there.
+    """
+    folder, _, _ = path.rpartition("/")
+    trial = f"{folder}/.{secrets.token_hex(8)}.trial"
+    try:
+        persistent(partial(found.pipe_file, trial, b"-"), address, "written")
+    except StorageError as error:
+        if isinstance(error.__cause__, FileNotFoundError) or _UNNAMEABLE in str(error):
+            raise StorageError(
+                f"{address} cannot be written: there is no such bucket or folder."
+            ) from error
+        raise
+    try:
+        persistent(partial(found.rm_file, trial), address, "written")
+    except StorageError:
+        note(f"{address_of(found, trial, address)} was written for a trial, and cannot be removed.")
 
 
 def _state(found: Any, path: str, address: str) -> str:  # noqa: ANN401 - file systems have no types

@@ -1,5 +1,9 @@
 """``detect`` into a table: storages, shards, clusters, and what is refused."""
 
+import os
+import sys
+
+import boto3
 import fsspec
 import pyarrow.parquet as pq
 import pytest
@@ -134,3 +138,65 @@ def test_a_table_goes_to_an_address_and_the_next_run_goes_on(say, bucket, tmp_pa
     assert [one for one in (tmp_path / "cache").rglob("*") if one.is_file()] == []
     said = say("detect", "s3://photos/in", "--out", "s3://photos/out")[2]
     assert said == "skyline-viz: files go into a folder; an address takes a table, FILE.parquet.\n"
+
+
+@pytest.mark.parametrize(
+    ("out", "said"),
+    [
+        ("s3://nobucket/t.parquet", "there is no such bucket or folder."),
+        ("s3://t.parquet", "it names a bucket, and no file in it."),
+        ("https://host.invalid/t.parquet", "web servers give files, and take none."),
+    ],
+)
+def test_where_no_table_can_be_written_no_photo_is_read(
+    say, bucket, tmp_path, monkeypatch, out, said
+):
+    monkeypatch.setenv("SKYLINE_VIZ_CACHE", str(tmp_path / "cache"))
+    status, told, err = say("detect", "s3://photos/in", "--out", out, "--workers", "1")
+    assert (status, told, err) == (2, "", f"skyline-viz: {out} cannot be written: {said}\n")
+    assert bucket.downloads == []
+
+
+def test_rows_that_go_with_other_photos_are_said(say, hills, bucket):
+    assert say("detect", "s3://photos/in", "--out", "t.parquet", "--workers", "1")[0] == 0
+    words = ("detect", "s3://photos/in/p1.png", "--out", "t.parquet", "--workers", "1")
+    assert say(*words)[1].splitlines() == [
+        "1 of 1 photo was done already.",
+        "4 rows of the earlier table went: of photos that this command does not name.",
+        "1 skyline in t.parquet",
+    ]
+
+
+def test_odd_keys_are_detected_or_named(say, bucket, tmp_path):
+    data = write_scene(tmp_path / "x.png", 1).read_bytes()
+    client = boto3.client("s3")
+    for key in ("q?.png", "q?x.png", "d//dbl.png", "dots/../up.png", "::x.png"):
+        client.put_object(Bucket="photos", Key=f"odd/{key}", Body=data)
+    words = ("detect", "s3://photos/odd", "--out", "t.parquet", "--workers", "1")
+    status, out, err = say(*words)
+    assert (status, out) == (1, "4 skylines in t.parquet\n")
+    reason = "s3://photos/odd/::x.png cannot be downloaded: a name that holds :: has no address."
+    assert err == f"skyline-viz: {reason}\n"
+    assert len(rows(tmp_path / "t.parquet")) == 5
+
+
+def test_names_that_are_no_text_fail_alone_also_in_shards(say, tmp_path):
+    for name in (b"a.png", b"b\xff.png", b"c\xfe.png", b"d.png"):
+        write_scene(tmp_path / "x.png", 1).rename(tmp_path / os.fsdecode(name))
+    odd = os.fsdecode(b"c\xfe.png")
+    for number in (1, 2):
+        words = ("--out", "t.parquet", "--shard", f"{number}/2", "--workers", "1")
+        say("detect", "a.png", os.fsdecode(b"b\xff.png"), odd, "d.png", *words)
+    assert say("join", "t.parquet", "--out", "all.parquet")[:2] == (0, "4 photos in all.parquet\n")
+    found = rows(tmp_path / "all.parquet")
+    assert [row["error"] for name, row in sorted(found.items()) if row["error"]] == [
+        f"{name} has a name that is no text, and a table holds text; rename it."
+        for name in ("b\\xff.png", "c\\xfe.png")
+    ]
+
+
+def test_without_pyarrow_nothing_is_left_behind(say, hills, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    status, _, err = say("detect", hills, "--out", "t.parquet")
+    assert (status, err[:45]) == (2, "skyline-viz: a Parquet table needs pyarrow; i")
+    assert [*tmp_path.glob("t.parquet*")] == []

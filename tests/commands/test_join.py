@@ -74,3 +74,33 @@ def test_a_detector_goes_to_no_address(say, results):
     status, _, err = say("join", "s3://photos/t.parquet", "--out", "s3://photos/bank.npz")
     assert status == 2
     assert "name a file that ends in .parquet for a table" in err
+
+
+@pytest.mark.parametrize(
+    "out", ["all.parquet", "shard-00001-of-00002.parquet", "b.npz", "in/a.npz"]
+)
+def test_nothing_is_written_among_the_shards(say, tmp_path, out):
+    for shard in (1, 2):
+        rows = [failed_row(ODD[shard], "so")]
+        write_lines(tmp_path / "j.parquet" / Shard(shard, 2).file, rows, {"digest": "d"})
+    before = {path: path.read_bytes() for path in (tmp_path / "j.parquet").iterdir()}
+    status, _, err = say("join", "j.parquet", "--out", f"j.parquet/{out}")
+    said = f"j.parquet/{out} is the folder of the shards or lies in it, and that is to hold shards"
+    assert (status, err) == (2, f"skyline-viz: {said} alone; name another --out.\n")
+    assert {path: path.read_bytes() for path in (tmp_path / "j.parquet").iterdir()} == before
+
+
+def test_nothing_is_written_among_the_shards_of_a_storage(say, results):
+    words = ("join", "s3://photos/t.parquet/", "--out", "s3://photos/t.parquet/all.parquet")
+    assert "lies in it, and that is to hold shards alone" in say(*words)[2]
+    assert results.ls("photos/t.parquet") == [f"photos/t.parquet/{Shard(1, 2).file}"]
+
+
+def test_a_table_by_the_name_of_another_shard_is_refused(say, tmp_path):
+    for shard in (1, 2):
+        about = {"digest": "d", "shard": "2/2"}
+        write_lines(tmp_path / "parts" / Shard(shard, 2).file, [], about)
+    assert say("join", "parts", "--out", "t.parquet")[2] == (
+        "skyline-viz: parts/shard-00001-of-00002.parquet holds the shard 2/2, and by its name it "
+        "is 1/2.\n"
+    )

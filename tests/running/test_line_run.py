@@ -1,5 +1,6 @@
 """Detecting into a table: each photo once, nothing done twice, whatever happens between."""
 
+import os
 from dataclasses import replace
 from functools import partial
 
@@ -9,8 +10,9 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.running import line_run
 from skyline_viz.running.batch import Failure, run
-from skyline_viz.running.line_run import detect_into
+from skyline_viz.running.line_run import detect_into, nameable
 from skyline_viz.running.line_store import store_of
+from skyline_viz.running.line_table import read_about
 from skyline_viz.storage.addresses import StorageError, UnseenError
 from skyline_viz.storage.stored_photo import StoredPhoto
 from testing.programs.commands import scene, write_scene
@@ -144,3 +146,33 @@ def test_rows_outlive_an_outage_unless_the_photo_is_known_to_have_changed(
         "it is busy.",
         "it is busy.",
     ]
+
+
+def test_a_name_that_is_no_text_fails_alone(photos, tmp_path):
+    odd = tmp_path / os.fsdecode(b"b\xff.png")
+    odd.write_bytes((tmp_path / "p1.png").read_bytes())
+    named = nameable([photos[0], StoredPhoto(str(odd)), photos[2]])
+    table = tmp_path / "t.parquet"
+    done = detect_into(table, named, sv.Detector(), ONE_BY_ONE, {"words": str(odd)})
+    escaped = f"{tmp_path}/b\\xff.png"
+    reason = f"{escaped} has a name that is no text, and a table holds text; rename it."
+    assert [str(one) for one in done.failures] == [reason]
+    told = pq.read_table(table).to_pylist()
+    assert [row["photo"] for row in told] == [photos[0].name, escaped, photos[2].name]
+    assert [row["error"] for row in told] == [None, reason, None]
+    assert read_about(table)["words"] == str(odd)
+    assert not store_of(table).exists()
+
+
+def test_escaped_names_do_not_meet():
+    names = ["b\udcff.png", "b\\xff.png", "c.png"]
+    named = [one.name for one in nameable([*map(StoredPhoto, names)])]
+    assert named == ["b\\xff.png'", *names[1:]]
+
+
+def test_rows_of_photos_that_are_not_named_are_counted(photos, tmp_path):
+    table = tmp_path / "t.parquet"
+    assert detect_into(table, photos[:3], sv.Detector(), ONE_BY_ONE, {}).gone == 0
+    assert detect_into(table, photos[2:], sv.Detector(), ONE_BY_ONE, {}).gone == 2
+    other = sv.Detector(config=sv.DetectorConfig(delta=2))
+    assert detect_into(table, photos[3:], other, ONE_BY_ONE, {}).gone == 1

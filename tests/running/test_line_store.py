@@ -4,6 +4,7 @@ import errno
 import sqlite3
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -64,7 +65,10 @@ def test_a_damaged_store_is_named(tmp_path):
 
 @pytest.mark.parametrize(
     ("said", "kind", "match"),
-    [("database or disk is full", OSError, "space"), ("odd", StoreError, "cannot be used: odd")],
+    [
+        ("database or disk is full", OSError, "space"),
+        ("odd", StoreError, r"/t\.parquet cannot be written: odd\.$"),
+    ],
 )
 def test_what_a_disk_refuses_is_said(tmp_path, said, kind, match):
     with pytest.raises(kind, match=match) as raised, line_store(tmp_path / "t.parquet", "d"):
@@ -87,3 +91,17 @@ def test_each_photo_is_in_it_once_as_it_was_kept_last(kept):
             assert (store.known(photo), store.row(photo)) == (Known(stamp, "ab"), row)
     finally:
         database.close()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="there is /proc")
+def test_a_place_that_takes_no_file_is_named_by_the_table():
+    said = r"^/proc/t\.parquet cannot be written: /proc takes no file\.$"
+    with pytest.raises(StoreError, match=said), line_store(Path("/proc/t.parquet"), "d"):
+        pass
+
+
+def test_a_folder_in_its_place_is_named_by_the_table(tmp_path):
+    store_of(tmp_path / "t.parquet").mkdir()
+    said = r"/t\.parquet cannot be written: is a directory\.$"
+    with pytest.raises(StoreError, match=said), line_store(tmp_path / "t.parquet", "d"):
+        pass

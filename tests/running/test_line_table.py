@@ -15,6 +15,7 @@ from skyline_viz.running.line_table import (
     TableError,
     failed_row,
     found_row,
+    photos_in,
     read_about,
     read_rows,
     schema,
@@ -84,6 +85,22 @@ def test_other_files_are_refused(tmp_path, content):
     (tmp_path / "t.parquet").write_bytes(content)
     with pytest.raises(TableError, match=r"t\.parquet is damaged, or no Parquet table\.$"):
         read_about(tmp_path / "t.parquet")
+
+
+def test_damage_within_is_said_in_plain_words(found, tmp_path):
+    path = tmp_path / "t.parquet"
+    write_lines(path, [found_row("a.jpg", "", "ab", found)], {})
+    data = bytearray(path.read_bytes())
+    data[4 : len(data) // 2] = bytes(len(data) // 2 - 4)
+    path.write_bytes(data)
+    for read in (read_rows, photos_in):
+        with pytest.raises(TableError) as caught:
+            list(read(path))
+        assert str(caught.value) == f"{path} is damaged."
+
+
+def test_photos_of_a_table_are_named(table):
+    assert list(photos_in(table)) == ["s3://b/a.jpg", "b.jpg"]
 
 
 def test_tables_of_others_are_refused(table, tmp_path):

@@ -5,13 +5,17 @@ from concurrent.futures import ThreadPoolExecutor
 from threading import Event
 from types import SimpleNamespace
 
+import boto3
 import fsspec
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from skyline_viz.storage import copies
 from skyline_viz.storage.addresses import StorageError
 from skyline_viz.storage.copies import CACHE, copied, lost_in
 from skyline_viz.storage.fetching import OutageError
+from skyline_viz.storage.listing import Listed
 
 
 @pytest.fixture(autouse=True)
@@ -181,10 +185,41 @@ def test_what_is_not_there_is_named(memory, address):
         copied(address)
 
 
-def test_names_that_lead_out_are_refused(memory, monkeypatch):
-    monkeypatch.setattr(copies, "files_at", lambda _: iter([("../a.jpg", None)]))
-    with pytest.raises(StorageError, match=r"holds \.\./a\.jpg, which is no name"):
-        copied("memory://in")
+ODD = {
+    "::x.jpg": "%3A%3Ax.jpg",
+    "d//dbl.jpg": "d/%2F/dbl.jpg",
+    "dots/../up.jpg": "dots/%2E%2E/up.jpg",
+    "a:b.jpg": "a%3Ab.jpg",
+    "c\\d.jpg": "c%5Cd.jpg",
+    "both": "%both",
+}
+
+
+def test_a_file_without_a_name_here_is_lost_alone(s3, tmp_path):
+    client = boto3.client("s3")
+    good = [f"{number}.jpg" for number in range(6)] + ["both/a.jpg"]
+    for key in (*ODD, *good):
+        client.put_object(Bucket="photos", Key=f"hills/{key}", Body=b"x")
+    folder = copied("s3://photos/hills")
+    assert set(held(folder)) == {*good, *ODD.values()}
+    no_name, no_address = "has a name that no file can have here.", "cannot be downloaded: a name"
+    for key, here in ODD.items():
+        reason = lost_in(folder)[folder / here]
+        assert reason.startswith(
+            f"s3://photos/hills/{key} {no_address if '::' in key else no_name}"
+        )
+    assert not (tmp_path / "up.jpg").exists()
+
+
+@given(st.lists(st.text("a./:\\%é", min_size=1, max_size=300), min_size=1, max_size=6, unique=True))
+def test_names_here_lie_within_and_none_is_dropped(names):
+    found = copies._by_names_here({own: Listed(f"s3://b/{own}") for own in names})
+    assert sorted(one.address for one in found.values()) == sorted(f"s3://b/{one}" for one in names)
+    for here, one in found.items():
+        parts = here.split("/")
+        assert not {"", ".", ".."} & {*parts}
+        assert all(len(part.encode()) < 256 for part in parts)
+        assert one.fault or one.address == f"s3://b/{here}"
 
 
 def test_copies_that_nobody_uses_go(memory, cache):

@@ -1,7 +1,9 @@
 """The photos at an address."""
 
+import tarfile
 import zipfile
 
+import boto3
 import fsspec
 import pytest
 from hypothesis import given
@@ -91,6 +93,48 @@ def test_every_photo_is_listed_once_however_deep(keys):
     finally:
         files.store.clear()
         files.pseudo_dirs[:] = [""]
+
+
+ODD = ["/lead.jpg", "d//dbl.jpg", "d///tri.jpg", "dots/../up.jpg", "./dot.jpg", "q?.jpg", "q?x.jpg"]
+NO_ADDRESS = {
+    "::x.jpg": "a name that holds :: has no address.",
+    "v?versionId=3.jpg": "its address means another file.",
+}
+
+
+def test_odd_keys_of_a_bucket_are_listed_and_fetched_or_said_to_have_no_address(s3):
+    client = boto3.client("s3")
+    for key in (*ODD, *NO_ADDRESS, "d/plain.jpg", "d//.hidden.jpg"):
+        client.put_object(Bucket="photos", Key=f"in/{key}", Body=key.encode())
+    found = list(photos_at("s3://photos/in"))
+    assert sorted(one.below for one in found) == sorted([*ODD, *NO_ADDRESS, "d/plain.jpg"])
+    for one in found:
+        assert one.address == f"s3://photos/in/{one.below}"
+        if one.below in NO_ADDRESS:
+            assert one.fault == f"{one.address} cannot be downloaded: {NO_ADDRESS[one.below]}"
+        else:
+            assert fetch(one.address, one.size).decode() == one.below
+            assert list(photos_at(one.address)) == [Listed(one.address)]
+
+
+def test_odd_names_in_archives_are_listed_and_fetched(tmp_path):
+    odd = [*ODD[1:], "v?versionId=3.jpg"]
+    with zipfile.ZipFile(tmp_path / "all.zip", "w") as archive:
+        for key in (*odd, "d/.hidden/a.jpg"):
+            archive.writestr(f"in/{key}", key)
+    found = list(photos_at(f"zip://in::file://{tmp_path}/all.zip"))
+    assert sorted(fetch(one.address, one.size).decode() for one in found) == sorted(odd)
+    with tarfile.open(tmp_path / "all.tar", "w") as archive:
+        archive.add(tmp_path / "all.zip", "./a.jpg")
+    assert [one.below for one in photos_at(f"tar://::file://{tmp_path}/all.tar")] == ["./a.jpg"]
+
+
+def test_what_stands_before_colons_reads_from_another_storage(s3):
+    for listed in (photos_at, files_at):
+        with pytest.raises(
+            StorageError, match=r"^s3://photos/::x\.jpg cannot be read: what stands"
+        ):
+            next(listed("s3://photos/::x.jpg"))
 
 
 @pytest.mark.parametrize("name", ["b/all.zip", "b/all.TAR.GZ"])

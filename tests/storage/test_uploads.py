@@ -1,11 +1,14 @@
 """Files that go to an address when they are whole."""
 
+import zipfile
+
 import fsspec
 import pytest
 
 from skyline_viz.storage.addresses import StorageError
 from skyline_viz.storage.copies import CACHE
 from skyline_viz.storage.uploads import uploaded
+from skyline_viz.system.notes import heard_by
 
 
 @pytest.fixture(autouse=True)
@@ -103,3 +106,38 @@ def test_where_nothing_may_be_written_it_is_said_at_once(memory, monkeypatch, pa
     ):
         file.write_bytes(b"one")
     assert pauses == []
+
+
+@pytest.mark.parametrize(
+    ("address", "said"),
+    [
+        ("s3://gone/t.parquet", "there is no such bucket or folder."),
+        ("s3://no!name/t.parquet", "there is no such bucket or folder."),
+        ("s3://t.parquet", "it names a bucket, and no file in it."),
+        ("https://host.invalid/t.parquet", "web servers give files, and take none."),
+        ("zip://t.parquet::file://{here}/a.zip", "archives are read alone."),
+    ],
+)
+def test_what_cannot_be_written_is_said_before_anything_is_begun(s3, tmp_path, address, said):
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        archive.writestr("a", "a")
+    address = address.format(here=tmp_path)
+    with pytest.raises(StorageError) as caught, uploaded(address):
+        raise AssertionError("nothing is begun")
+    assert str(caught.value) == f"{address} cannot be written: {said}"
+
+
+def test_a_trial_leaves_nothing_or_is_named(memory, monkeypatch):
+    with heard_by(print), pytest.raises(KeyboardInterrupt), uploaded("memory://out/t.parquet"):
+        raise KeyboardInterrupt
+    assert memory.find("/") == []
+
+    def forbidden(*_):
+        raise PermissionError(1, "no")
+
+    monkeypatch.setattr(type(memory), "rm_file", forbidden)
+    said = []
+    with heard_by(said.append), uploaded("memory://out/t.parquet") as file:
+        file.write_bytes(b"one")
+    (trial,) = (one for one in memory.find("/") if one.endswith(".trial"))
+    assert said == [f"memory://{trial} was written for a trial, and cannot be removed."]
