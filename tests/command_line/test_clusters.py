@@ -78,15 +78,13 @@ def test_tables_are_the_same_from_a_cluster(say, hills, tmp_path):
     assert "Table III" in tables[0]
 
 
-def test_a_folder_that_workers_do_not_see_is_refused(tmp_path):
-    class Blind:
-        def run(self, function, file):
-            return {"tcp://a:1": True, "tcp://b:2": False}
-
+def test_a_folder_that_workers_do_not_see_is_refused(tmp_path, monkeypatch):
+    seen = {"tcp://a:1": True, "tcp://b:2": False}
+    monkeypatch.setattr("skyline_viz.running.clusters.working.every_worker", lambda *_: seen)
     with pytest.raises(ClusterError, match=r"^the worker tcp://b:2 does not see the folder .*path"):
-        Cluster(Blind()).check_shared(tmp_path)
+        Cluster(None).check_shared(tmp_path)
     with pytest.raises(ClusterError, match=r"; let CACHE name one that all machines share"):
-        Cluster(Blind()).check_shared(tmp_path, "let CACHE name")
+        Cluster(None).check_shared(tmp_path, "let CACHE name")
     assert [*tmp_path.iterdir()] == []
 
 
