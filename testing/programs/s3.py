@@ -62,7 +62,7 @@ def s3(monkeypatch):
     """A storage with an empty bucket ``photos``, which the environment names; yields its moods."""
     moods = Moods(DomainDispatcherApplication(create_backend_app))
     server = make_server("127.0.0.1", 0, moods, threaded=True)
-    thread = threading.Thread(target=server.serve_forever, daemon=True)
+    thread = threading.Thread(target=server.serve_forever, args=(0.02,), daemon=True)
     thread.start()
     try:
         place = f"http://127.0.0.1:{server.server_port}"
