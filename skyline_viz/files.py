@@ -10,6 +10,10 @@ from pathlib import Path
 
 from skyline_viz.system.aftermath import passing
 
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EFBIG})
+"""Errors of the disk, not of a photo: no later photo could be written either. The last is that of a
+limit that was set for a process."""
+
 _UNABLE = {errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.EACCES, errno.EPERM}
 
 

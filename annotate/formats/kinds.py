@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from annotate.formats.documents import json_of, xml_of
-from skyline_viz.datasets.parquet_files import SUFFIX
+from skyline_viz.datasets.tables.parquet_files import SUFFIX
 from skyline_viz.photo import PHOTO_SUFFIXES
 from skyline_viz.skyline import CSV_HEADERS
 

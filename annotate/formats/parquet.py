@@ -1,7 +1,7 @@
-"""Labels as one Parquet table, a row a photo: a data set of its own, see `datasets.label_table`.
+"""Labels as one Parquet table, a row a photo: a data set of its own.
 
-``labels.parquet`` has the columns of that table, the ``name`` of each photo below the folder, and
-``tags``. In ``photo`` are whole paths.
+``labels.parquet`` is a table as `datasets.tables.label_table` reads it. It also has the ``name`` of
+each photo below the folder, and ``tags``. In ``photo`` are whole paths.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from annotate.formats.common import Entry, Imported, check_size
 from annotate.formats.importing import Task
 from annotate.store.identity import file_digest
 from skyline_viz.datasets.dataset import DatasetError
-from skyline_viz.datasets.label_table import open_label_table, place_of_photo
 from skyline_viz.datasets.outlines import FormatError
-from skyline_viz.datasets.parquet_files import SUFFIX
-from skyline_viz.datasets.table_item import TableItem
+from skyline_viz.datasets.tables.label_table import open_label_table, place_of_photo
+from skyline_viz.datasets.tables.parquet_files import SUFFIX
+from skyline_viz.datasets.tables.table_item import TableItem
 from skyline_viz.photo import PhotoError
 from skyline_viz.skyline import SkylineError
 from skyline_viz.storage.addresses import StorageError, needed

@@ -12,7 +12,7 @@ from skyline_viz.datasets.dataset import Dataset, DatasetError, DatasetItem
 from skyline_viz.datasets.layouts import truth_names
 from skyline_viz.datasets.matching import IMAGE_FOLDERS, TRUTH_FOLDERS
 from skyline_viz.datasets.named_item import NamedItem
-from skyline_viz.datasets.parquet_files import is_label_table
+from skyline_viz.datasets.tables.parquet_files import is_label_table
 from skyline_viz.photo import PhotoError
 from skyline_viz.running.batch import Failure
 from skyline_viz.storage.addresses import is_address

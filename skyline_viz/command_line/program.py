@@ -33,7 +33,8 @@ from skyline_viz.command_line.messages import (
 from skyline_viz.command_line.run_record import remember
 from skyline_viz.command_line.sizes import limit
 from skyline_viz.command_line.words import checked
-from skyline_viz.running.batch import FULL, BatchError, sentence
+from skyline_viz.files import FULL
+from skyline_viz.running.batch import BatchError, sentence
 from skyline_viz.storage.copy_names import forget
 from skyline_viz.system.endings import AskedToEnd, asked_by_signals
 from skyline_viz.system.memory import end_quickly, keep_freed, loading

@@ -13,7 +13,7 @@ from skyline_viz.arrays import U8
 from skyline_viz.command_line.local import local
 from skyline_viz.command_line.messages import UsageError
 from skyline_viz.datasets.dataset import DatasetError, DatasetItem
-from skyline_viz.datasets.parquet_files import is_label_table
+from skyline_viz.datasets.tables.parquet_files import is_label_table
 from skyline_viz.storage.addresses import StorageError, is_address
 
 _LIST = "@"

@@ -12,8 +12,8 @@ from skyline_viz.command_line.sources import Missing, spelt_out
 from skyline_viz.datasets.dataset import DatasetItem
 from skyline_viz.datasets.listed_names import told_apart
 from skyline_viz.datasets.named_item import NamedItem
-from skyline_viz.datasets.parquet_files import is_label_table
 from skyline_viz.datasets.stored_item import StoredItem
+from skyline_viz.datasets.tables.parquet_files import is_label_table
 from skyline_viz.storage.addresses import StorageError, is_address
 from skyline_viz.storage.listing import Listed, photos_at
 from skyline_viz.storage.stored_photo import StoredPhoto

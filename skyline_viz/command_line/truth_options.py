@@ -39,7 +39,7 @@ class Truths:
         """
         from skyline_viz.command_line.local import local
         from skyline_viz.datasets.layouts import open_dataset
-        from skyline_viz.datasets.parquet_files import is_label_table
+        from skyline_viz.datasets.tables.parquet_files import is_label_table
 
         place = folder if is_label_table(folder) else local(folder)
         return open_dataset(place, sky=self.sky, terrain=self.terrain)

@@ -53,7 +53,8 @@ class Tables:
         tyro.conf.Positional,
         tyro.conf.arg(metavar="DATASET"),
     ]
-    """Folders or addresses of data sets with truths, in a published layout or plain."""
+    """Folders or addresses of data sets with truths, in a published layout or plain; or tables of
+    labels, FILE.parquet."""
 
     out: Folder = Path("skyline-tables")
     """Folder for tables.md, tables.tex and the files of `evaluate`; made where it is missing."""

@@ -10,7 +10,7 @@ GeoPose3K  ``NAME/photo.jpg``                 ``NAME/pinhole/labels*.png``, ``NA
 plain      wherever they lie in the folder    in a folder of truths, or beside the photo
 =========  =================================  ====================================================
 
-A file whose name ends in ``.parquet`` is a table of labels, see `datasets.label_table`.
+A file whose name ends in ``.parquet`` is a table of labels, see `datasets.tables.label_table`.
 
 What a truth may be, `skyline_viz.truths` says. Folders of truths are ``ground_truth/``, ``masks/``,
 ``truth/``, ``labels/`` and others, see `matching.TRUTH_FOLDERS`. A truth has the photo's name,
@@ -28,7 +28,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from skyline_viz.datasets.dataset import Dataset, DatasetError, DatasetItem, Layout
-from skyline_viz.datasets.label_table import open_label_table
 from skyline_viz.datasets.lost_item import with_lost
 from skyline_viz.datasets.matching import (
     IMAGE_FOLDERS,
@@ -39,8 +38,9 @@ from skyline_viz.datasets.matching import (
     is_label_map,
 )
 from skyline_viz.datasets.pairing import item_names, paired
-from skyline_viz.datasets.parquet_files import is_label_table
-from skyline_viz.datasets.table_item import TableItem
+from skyline_viz.datasets.tables.label_table import open_label_table
+from skyline_viz.datasets.tables.parquet_files import is_label_table
+from skyline_viz.datasets.tables.table_item import TableItem
 from skyline_viz.datasets.tree import Tree
 from skyline_viz.picture_files.kinds import left_out
 from skyline_viz.storage.addresses import is_address
@@ -60,7 +60,7 @@ def open_dataset(
     and headers and reads no pixels, but for masks of numbers that no photo has. A photo without
     truth is fine. A truth without photo, or of another size than its photo, is left out and named
     in `Dataset.problems`. Hidden files are ignored. A table of labels is a data set, too, see
-    `skyline_viz.datasets.label_table`.
+    `skyline_viz.datasets.tables.label_table`.
 
     Args:
         folder: The folder, or the table, which ends in ``.parquet``; by a path or an address. What

@@ -17,11 +17,11 @@ from skyline_viz.datasets.coco import POLYGON
 from skyline_viz.datasets.dataset import DatasetError, DatasetItem
 from skyline_viz.datasets.item import Item
 from skyline_viz.datasets.label_picture import label_size
-from skyline_viz.datasets.label_table import open_label_table
 from skyline_viz.datasets.line_documents import LineInCoco, documents_in, lines_in
 from skyline_viz.datasets.matching import TRUTH_FOLDERS, bare_stem, common_name
-from skyline_viz.datasets.parquet_files import SUFFIX, is_label_table
-from skyline_viz.datasets.table_item import TableItem
+from skyline_viz.datasets.tables.label_table import open_label_table
+from skyline_viz.datasets.tables.parquet_files import SUFFIX, is_label_table
+from skyline_viz.datasets.tables.table_item import TableItem
 from skyline_viz.datasets.truths import SKYLINE_SUFFIXES, begins_like_a_skyline, read_truth
 from skyline_viz.photo import PHOTO_SUFFIXES
 from skyline_viz.skyline import Skyline, SkylineError
@@ -154,9 +154,9 @@ def open_predictions(
     A file is called as its photo is, with another ending, and with ``_mask`` or the like besides,
     as truths are; or as `skyline-viz detect` and `skyline-annotate export` call theirs. Of several
     files of a photo CSV counts first, then JSON, then pictures. A document may hold the lines of
-    many photos: COCO, ``labels.json`` of an export, or a Parquet table, see `label_table`. The
-    table and the record of a run of `skyline-viz detect` into a folder are no lines, nor are its
-    pictures ``NAME-overlay.jpg``.
+    many photos: COCO, ``labels.json`` of an export, or a Parquet table, see `tables`. The table and
+    the record of a run of `skyline-viz detect` into a folder are no lines, nor are its pictures
+    ``NAME-overlay.jpg``.
 
     Args:
         source: The folder or file.

@@ -1,7 +1,6 @@
 """Running a function over many photos: in order, in bounded memory, past the bad ones."""
 
 import contextlib
-import errno
 import multiprocessing
 import os
 from collections import deque
@@ -14,6 +13,7 @@ from itertools import chain, islice
 from multiprocessing.synchronize import Event
 from typing import Protocol, TypeVar
 
+from skyline_viz.files import FULL
 from skyline_viz.running.progress import ProgressBar
 from skyline_viz.running.sending import Unsendable, packed, unpacked
 from skyline_viz.system import aftermath
@@ -26,10 +26,6 @@ _HANDFUL = 24
 
 _MOST_WORKERS = 4
 """Processes at most, unless asked for more: each holds a photo and all its stages."""
-
-FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EFBIG})
-"""Errors of the disk, not of a photo: no later photo could be written either. The last is that of a
-limit that was set for a process."""
 
 
 class Named(Protocol):

@@ -14,6 +14,7 @@ from email.utils import parsedate_to_datetime
 from inspect import signature
 from typing import Any, TypeVar
 
+from skyline_viz.files import FULL
 from skyline_viz.storage.addresses import (
     StorageError,
     UnseenError,
@@ -79,6 +80,7 @@ def persistent(action: Callable[[], Value], address: str, done: str) -> Value:
 
     Raises:
         StorageError: What failed lasts, or each try failed.
+        OSError: The disk of this machine is full or read-only.
     """
     last, asked = "", 0.0
     for number in range(TRIES):
@@ -88,6 +90,8 @@ def persistent(action: Callable[[], Value], address: str, done: str) -> Value:
         try:
             return action()
         except Exception as error:  # each library has classes of its own
+            if isinstance(error, OSError) and error.errno in FULL:
+                raise  # the disk of this machine, which no other try would empty
             if lasts(error):
                 with naming(address, done):
                     raise

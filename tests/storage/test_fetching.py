@@ -1,5 +1,7 @@
 """Downloads: what passes is tried again, what lasts is said at once."""
 
+import errno
+
 import fsspec
 import pytest
 
@@ -64,3 +66,15 @@ def test_a_file_that_is_too_large_is_not_downloaded(stored, monkeypatch):
     with pytest.raises(StorageError, match=r"has 10 bytes, and the limit is 5\.$"):
         fetch(ADDRESS, len(DATA))
     assert stored.downloads == []
+
+
+def test_a_full_disk_of_this_machine_is_no_fault_of_the_storage(pauses):
+    tries = []
+
+    def full():
+        tries.append(1)
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    with pytest.raises(OSError, match="No space left"):
+        fetching.persistent(full, ADDRESS, "downloaded")
+    assert (len(tries), pauses) == (1, [])

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import skyline_viz as sv
-from skyline_viz.datasets.label_table import names_of, open_label_table, place_of_photo
-from skyline_viz.datasets.table_item import TableItem
+from skyline_viz.datasets.tables.label_table import names_of, open_label_table, place_of_photo
+from skyline_viz.datasets.tables.table_item import TableItem
 from skyline_viz.running.line_table import failed_row, found_row, write_lines
 from skyline_viz.storage.addresses import StorageError
 from testing.datasets import PHOTO, SKYLINE, put, row_of, write_labels

@@ -3,7 +3,7 @@
 import pytest
 
 from skyline_viz.datasets.dataset import DatasetError
-from skyline_viz.datasets.parquet_files import files_of, is_label_table, parquet
+from skyline_viz.datasets.tables.parquet_files import files_of, is_label_table, parquet
 from testing.datasets import SKYLINE, row_of, write_labels
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from skyline_viz.datasets.dataset import DatasetError
+from skyline_viz.files import FULL
 from skyline_viz.storage.addresses import address_of, file_system, is_address, needed
 from skyline_viz.storage.fetching import persistent
 
@@ -76,7 +77,7 @@ def parquet(file: str) -> Iterator[Any]:
     except needed("pyarrow", "a table of labels").ArrowException as error:
         raise DatasetError(f"{file} is damaged, or no Parquet table.") from error
     except OSError as error:
-        if is_address(file):
+        if is_address(file) or error.errno in FULL:  # of a disk that something is written to
             raise
         reason = (error.strerror or str(error)).lower()
         raise DatasetError(f"{file} cannot be read: {reason}.") from error

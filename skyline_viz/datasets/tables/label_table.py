@@ -34,9 +34,9 @@ from typing import Any
 import numpy as np
 
 from skyline_viz.datasets.dataset import Dataset, DatasetError
-from skyline_viz.datasets.parquet_files import files_of, parquet
-from skyline_viz.datasets.small_groups import columns_of, in_small_groups
-from skyline_viz.datasets.table_item import RowPlace, TableItem, row_group
+from skyline_viz.datasets.tables.parquet_files import files_of, parquet
+from skyline_viz.datasets.tables.small_groups import columns_of, in_small_groups
+from skyline_viz.datasets.tables.table_item import RowPlace, TableItem, row_group
 from skyline_viz.storage.addresses import is_address
 from skyline_viz.storage.parts import file_part
 from skyline_viz.storage.stored_photo import StoredPhoto

@@ -1,5 +1,6 @@
 """Tables in a storage or in large groups: what is kept near, for how long, and what fails."""
 
+import errno
 import os
 from pathlib import Path
 
@@ -9,9 +10,9 @@ import pyarrow.parquet as pq
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.datasets import small_groups as module
-from skyline_viz.datasets.parquet_files import version_of
-from skyline_viz.datasets.small_groups import in_small_groups
+from skyline_viz.datasets.tables import small_groups as module
+from skyline_viz.datasets.tables.parquet_files import version_of
+from skyline_viz.datasets.tables.small_groups import in_small_groups
 from skyline_viz.storage.addresses import StorageError
 from skyline_viz.storage.copies import KEPT
 from testing.datasets import SKYLINE, row_of, write_labels
@@ -110,6 +111,25 @@ def test_where_the_disk_is_small_nothing_is_copied(tmp_path, monkeypatch):
     monkeypatch.setattr("skyline_viz.storage.copies.shutil.disk_usage", lambda _: usage)
     with pytest.raises(StorageError, match=r"t\.parquet needs .* SKYLINE_VIZ_CACHE names another"):
         in_small_groups(str(table))
+
+
+@pytest.mark.parametrize("address", [False, True])
+def test_a_full_disk_is_told_at_once_and_as_what_it_is(tmp_path, monkeypatch, memory, address):
+    table = write_labels(tmp_path / "t.parquet", rows(2))
+    memory.pipe_file("/t.parquet", table.read_bytes())
+    monkeypatch.setattr(module, "LARGE", 1)
+    tries = []
+
+    def full(*_, **__):
+        tries.append(1)
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(pq, "ParquetWriter", full)
+    with pytest.raises(OSError, match="No space left") as raised:
+        in_small_groups("memory://t.parquet" if address else str(table))
+    assert raised.value.errno == errno.ENOSPC
+    assert str(tmp_path / "caches") in str(raised.value.filename)
+    assert len(tries) == 1
 
 
 def test_a_table_that_does_not_fit_into_memory_is_not_called_damaged(tmp_path, monkeypatch):

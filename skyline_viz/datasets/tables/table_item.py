@@ -12,8 +12,8 @@ import numpy as np
 
 from skyline_viz.arrays import U8
 from skyline_viz.datasets.dataset import DatasetError
-from skyline_viz.datasets.parquet_files import parquet, version_of
 from skyline_viz.datasets.stored_item import StoredItem
+from skyline_viz.datasets.tables.parquet_files import parquet, version_of
 from skyline_viz.photo import PhotoError
 from skyline_viz.skyline import Skyline, SkylineError
 

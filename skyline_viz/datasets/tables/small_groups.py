@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from skyline_viz.datasets.dataset import DatasetError
-from skyline_viz.datasets.parquet_files import parquet, version_of
+from skyline_viz.datasets.tables.parquet_files import parquet, version_of
 from skyline_viz.files import replacing
 from skyline_viz.storage.addresses import file_system, is_address, needed
 from skyline_viz.storage.copies import KEPT, caches, check_room

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import skyline_viz as sv
-from skyline_viz.datasets.table_item import row_group
+from skyline_viz.datasets.tables.table_item import row_group
 from testing.datasets import NOISE, PHOTO, SKYLINE, put, row_of, write_labels
 
 

@@ -1,0 +1,1 @@
+"""Tables of labels in Parquet, as data sets."""
