@@ -16,8 +16,8 @@ from skyline_viz.config import FILTER_SIZES
 from skyline_viz.datasets.item import Item, LoadedItem, photo_and_truth
 from skyline_viz.edges import candidate_edges, edge_pixels, to_grey
 from skyline_viz.evaluation.cross_validation import cross_validate
+from skyline_viz.evaluation.paper_tables.tables import untrained
 from skyline_viz.evaluation.results import Summary
-from skyline_viz.evaluation.tables import untrained
 from skyline_viz.rendering import KINDS, render
 from skyline_viz.score import score_at
 from skyline_viz.sky_model import SkyModel

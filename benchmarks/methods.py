@@ -5,8 +5,8 @@ from pathlib import Path
 
 from skyline_viz import Detector, open_dataset
 from skyline_viz.evaluation.cross_validation import cross_validate
-from skyline_viz.evaluation.tables import table_1, table_5, table_6
-from skyline_viz.evaluation.tables_report import markdown
+from skyline_viz.evaluation.paper_tables.tables import table_1, table_5, table_6
+from skyline_viz.evaluation.paper_tables.writing import markdown
 from skyline_viz.evaluation.timing import time_methods
 from skyline_viz.methods.registry import NAMES, make_method
 from skyline_viz.sky_model import SkyModel

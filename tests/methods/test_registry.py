@@ -11,9 +11,9 @@ import pytest
 import skyline_viz as sv
 from skyline_viz.cli import main
 from skyline_viz.detector import Detector
-from skyline_viz.evaluation import published, tables
 from skyline_viz.evaluation.cross_validation import cross_validate
-from skyline_viz.evaluation.tables_report import latex, markdown
+from skyline_viz.evaluation.paper_tables import published, tables
+from skyline_viz.evaluation.paper_tables.writing import latex, markdown
 from skyline_viz.evaluation.timing import time_methods
 from skyline_viz.method import Learner, MethodError
 from skyline_viz.methods.descriptors import LENGTH

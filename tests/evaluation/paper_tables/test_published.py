@@ -2,7 +2,7 @@
 
 import pytest
 
-from skyline_viz.evaluation import published
+from skyline_viz.evaluation.paper_tables import published
 from skyline_viz.methods.names import NAMES
 
 TABLES = {

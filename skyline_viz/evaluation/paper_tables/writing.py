@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import rich.table
 
-from skyline_viz.evaluation.tables import Cell, Table
+from skyline_viz.evaluation.paper_tables.tables import Cell, Table
 from skyline_viz.system.names import cell
 
 _ESCAPED = {one: f"\\{one}" for one in "_%&#${}"} | {one: f"${one}$" for one in "<>+|"}

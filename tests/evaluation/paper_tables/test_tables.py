@@ -6,8 +6,8 @@ import pytest
 
 import skyline_viz as sv
 from skyline_viz.detector import Detector
-from skyline_viz.evaluation import tables
 from skyline_viz.evaluation.cross_validation import cross_validate, evaluate
+from skyline_viz.evaluation.paper_tables import tables
 from skyline_viz.evaluation.timing import Timing
 
 

@@ -1,7 +1,7 @@
 """Tables as Markdown and LaTeX."""
 
-from skyline_viz.evaluation import tables
-from skyline_viz.evaluation.tables_report import latex, markdown
+from skyline_viz.evaluation.paper_tables import tables
+from skyline_viz.evaluation.paper_tables.writing import latex, markdown
 
 
 def test_tables_survive_any_name():

@@ -12,9 +12,9 @@ from skyline_viz.bins import Bins
 from skyline_viz.config import DetectorConfig, TrainingConfig
 from skyline_viz.datasets.item import Item
 from skyline_viz.detector import Detector
-from skyline_viz.evaluation import published
 from skyline_viz.evaluation.cross_validation import cross_validate, evaluate
 from skyline_viz.evaluation.evaluated import Evaluation
+from skyline_viz.evaluation.paper_tables import published
 from skyline_viz.evaluation.results import PhotoResult, Summary
 from skyline_viz.evaluation.timing import Timing
 from skyline_viz.evaluation.training_runs import train_on
